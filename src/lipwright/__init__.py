@@ -1,0 +1,1 @@
+"""Lipwright turns speech, typed or recorded, into editable facial animation."""

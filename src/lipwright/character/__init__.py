@@ -1,0 +1,1 @@
+"""Characters: from controls to what a rig has."""

@@ -1,0 +1,89 @@
+"""Curves over time: piecewise-linear keys, and animations sampled at a rate.
+
+Keys are what artists draw and what the bigram stages work on; an
+:class:`~lipwright.animation.Animation` is what an engine returns. This module holds the
+keys. It reads and writes nothing.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from lipwright.errors import InputError
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Keys:
+    """A piecewise-linear curve; zero outside its keys.
+
+    Parameters
+    ----------
+    times : (N,) float64
+        Strictly increasing; seconds, or a share of a bigram's span.
+    values : (N,) float64
+        Weights at these times.
+
+    Raises
+    ------
+    InputError
+        If the lengths differ, a number is not finite, or times do not increase.
+
+    Examples
+    --------
+    >>> Keys.of([(0, 0), (1, 1), (2, 0)]).at([0.5, 1.0, 3.0])
+    array([0.5, 1. , 0. ])
+    """
+
+    times: Floats
+    values: Floats
+
+    def __post_init__(self) -> None:
+        if self.times.ndim != 1 or self.times.shape != self.values.shape:
+            raise InputError(
+                f"{self.times.shape} times and {self.values.shape} values",
+                expected="as many values as times",
+            )
+        if not (np.isfinite(self.times).all() and np.isfinite(self.values).all()):
+            raise InputError("a key is not finite", expected="finite numbers")
+        late = np.flatnonzero(np.diff(self.times) <= 0)
+        if len(late):
+            raise InputError(
+                f"key {late[0] + 2} at {self.times[late[0] + 1]:.6g} does not come after the one "
+                f"before it",
+                expected="times that increase",
+            )
+
+    @classmethod
+    def of(cls, pairs: ArrayLike) -> Keys:
+        """Build keys from ``(time, value)`` pairs."""
+        array = np.asarray(pairs, dtype=np.float64).reshape(-1, 2)
+        return cls(array[:, 0].copy(), array[:, 1].copy())
+
+    def __len__(self) -> int:
+        return len(self.times)
+
+    def __eq__(self, other: object) -> bool:
+        return (
+            isinstance(other, Keys)
+            and np.array_equal(self.times, other.times)
+            and np.array_equal(self.values, other.values)
+        )
+
+    def __hash__(self) -> int:
+        return hash((self.times.tobytes(), self.values.tobytes()))
+
+    def at(self, times: ArrayLike) -> Floats:
+        """Return the values at ``times``, zero outside the keys."""
+        where = np.asarray(times, dtype=np.float64)
+        if not len(self.times):
+            return np.zeros_like(where)
+        return np.interp(where, self.times, self.values, left=0.0, right=0.0)
+
+    def pairs(self) -> list[tuple[float, float]]:
+        """Return the keys as ``(time, value)`` pairs."""
+        return list(zip(self.times.tolist(), self.values.tolist(), strict=True))

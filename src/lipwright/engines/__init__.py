@@ -1,0 +1,1 @@
+"""Engines: from speech to controls over time."""

@@ -1,0 +1,182 @@
+"""Reductions: what each label of one phone set becomes in another (Xu et al., Table 1).
+
+A reduction is a file, so that a user can split ``bmp`` into ``bp`` and ``m`` and is
+then told which bigrams are new. A label may become several (``ɑːɹ`` → aa, r), each
+with its share of the time.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from functools import cache
+from pathlib import Path
+
+import msgspec
+
+from lipwright.errors import LabelError
+from lipwright.files import convert, read_document
+from lipwright.phones.sets import DATA, SILENCE
+from lipwright.phones.track import PhoneTrack
+from lipwright.timeline import Interval, Tier
+
+
+class Piece(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """A label of the target set and its share of the phone's time, 0..1."""
+
+    label: str
+    share: float = 1.0
+
+
+@dataclass(frozen=True, slots=True)
+class ReductionReport:
+    """What a reduction did.
+
+    Parameters
+    ----------
+    exact : dict of str to str
+        Labels that the target set has a class for, and that class.
+    stand_ins : dict of str to str
+        Labels that only the nearest class could stand in for, and that class.
+    """
+
+    exact: dict[str, str] = field(default_factory=dict)
+    stand_ins: dict[str, str] = field(default_factory=dict)
+
+
+Finder = Callable[[str], tuple[tuple[Piece, ...], bool] | None]
+
+
+@dataclass(frozen=True, slots=True)
+class Reduction:
+    """A map from the labels of one phone set to those of another.
+
+    Parameters
+    ----------
+    source, target : str
+        Names of the phone sets.
+    table : dict of str to tuple of Piece
+        What each label becomes.
+    finder : function, optional
+        Asked for labels that are not in the table; it returns the pieces and whether
+        they are exact, or None where it knows no answer either.
+    """
+
+    source: str
+    target: str
+    table: dict[str, tuple[Piece, ...]]
+    finder: Finder | None = None
+
+    def of(self, label: str) -> tuple[tuple[Piece, ...], bool]:
+        """Return the pieces of one label and whether they are exact.
+
+        Raises
+        ------
+        LabelError
+            If neither the table nor the finder knows the label.
+        """
+        pieces = self.table.get(label)
+        if pieces is not None:
+            return pieces, True
+        found = self.finder(label) if self.finder is not None else None
+        if found is None:
+            raise LabelError(
+                f"{label!r} has no class in the reduction {self.source} to {self.target}",
+                cure="add it to the reduction file",
+            )
+        return found
+
+    def apply(self, track: PhoneTrack) -> tuple[PhoneTrack, ReductionReport]:
+        """Return the track in the target set, with a report.
+
+        Raises
+        ------
+        LabelError
+            If labels are unknown: all of them are named at once.
+        """
+        unknown: list[str] = []
+        report = ReductionReport()
+        reduced: list[Interval] = []
+        for phone in track:
+            if phone.label == SILENCE:
+                reduced.append(phone)
+                continue
+            try:
+                pieces, exact = self.of(phone.label)
+            except LabelError:
+                if phone.label not in unknown:
+                    unknown.append(phone.label)
+                continue
+            names = " ".join(piece.label for piece in pieces)
+            (report.exact if exact else report.stand_ins)[phone.label] = names
+            reduced.extend(_split(phone, pieces))
+        if unknown:
+            raise LabelError(
+                f"{', '.join(map(repr, unknown))}: no class in the reduction "
+                f"{self.source} to {self.target}",
+                cure="add it to the reduction file",
+            )
+        return PhoneTrack(Tier(tuple(reduced)), self.target), report
+
+
+def _split(phone: Interval, pieces: tuple[Piece, ...]) -> list[Interval]:
+    total = sum(piece.share for piece in pieces)
+    result: list[Interval] = []
+    start, passed = phone.start, 0.0
+    for index, piece in enumerate(pieces):
+        passed += piece.share / total
+        last = index == len(pieces) - 1
+        end = phone.end if last else phone.start + passed * phone.duration
+        result.append(replace(phone, label=piece.label, start=start, end=end))
+        start = end
+    return result
+
+
+class _Document(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    version: int
+    source: str
+    target: str
+    map: dict[str, str | list[Piece]]
+    about: str = ""
+
+
+@cache
+def load_reduction(source: str, target: str = "common") -> Reduction:
+    """Return the reduction between two phone sets, or the one in a file.
+
+    Parameters
+    ----------
+    source : str
+        A phone set's name, or the path of a reduction file ending in ``.json``.
+    target : str
+        The phone set to reduce to.
+
+    Raises
+    ------
+    LabelError
+        If there is no such reduction.
+    """
+    if source == target:
+        return Reduction(source, target, {}, lambda label: ((Piece(label),), True))
+    by_path = source.endswith(".json")
+    path = Path(source) if by_path else DATA / f"{source}-to-{target}.json"
+    if not by_path and not path.exists():
+        raise LabelError(
+            f"no reduction from {source!r} to {target!r}", cure="write one, and give its path"
+        )
+    read = convert(
+        read_document(path, format="lipwright/reduction", version=1), _Document, str(path)
+    )
+    table = {
+        label: (Piece(value),) if isinstance(value, str) else tuple(value)
+        for label, value in read.map.items()
+    }
+    return Reduction(read.source, read.target, table, _finder(read.source, read.target))
+
+
+def _finder(source: str, target: str) -> Finder | None:
+    if source == "ipa" and target == "common":
+        from lipwright.phones.ipa import nearest_class  # only IPA needs its tables
+
+        return nearest_class
+    return None

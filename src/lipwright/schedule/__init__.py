@@ -1,0 +1,1 @@
+"""Schedules: who says when each phone sounds. One module per source."""

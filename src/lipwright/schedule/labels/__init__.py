@@ -1,0 +1,1 @@
+"""Labels that others made: one module per format."""
