@@ -1,0 +1,217 @@
+"""The bigram engine: phones in, animation out (Xu et al. 2013, section 3.2).
+
+Reads as a recipe: prepare, place, stages 2 to 5 on keys, soften, sample, keep closures.
+An engine is made once for a set and then takes any number of lines.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from lipwright.animation import Animation
+from lipwright.curves import Keys
+from lipwright.engines.bigram.closures import keep_closures
+from lipwright.engines.bigram.model import BigramSet, Pair, Rules
+from lipwright.engines.bigram.polyline import Axis, Floats
+from lipwright.engines.bigram.preparation import Spans, prepare
+from lipwright.engines.bigram.softening import sample
+from lipwright.engines.bigram.stages import Plan, Stages, run
+from lipwright.engines.bigram.stand_in import STAND_IN
+from lipwright.engines.bigram.table import Table
+from lipwright.errors import InputError
+from lipwright.phones import PhoneTrack, load_reduction
+from lipwright.phones.reduction import ReductionReport
+from lipwright.speech import Speech
+
+RATE = 60.0
+FASTEST = 10_000.0
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Solved:
+    """A line after stage 5, with all that is needed to say why.
+
+    Attributes
+    ----------
+    spans : Spans
+        Its phones and bigrams.
+    stages : Stages or None
+        None where nothing is said.
+    reduction : ReductionReport
+        Which phones only the nearest class stood in for.
+    """
+
+    spans: Spans
+    stages: Stages | None
+    reduction: ReductionReport
+
+
+class BigramEngine:
+    """Animates phones with the curves of one set.
+
+    Parameters
+    ----------
+    of : BigramSet
+        The set, with a character's overrides in it if there are any.
+    preset : str
+        ``"default"``, ``"published"``, or one of the set's own.
+    reduction : str, optional
+        Path of a reduction file to use instead of the one for the track's phone set.
+
+    Raises
+    ------
+    InputError
+        If the set has no such preset.
+    """
+
+    def __init__(
+        self, of: BigramSet, preset: str = "default", reduction: str | None = None
+    ) -> None:
+        self.of = of
+        self.preset = preset
+        self.rules: Rules = of.preset(preset)
+        self.plan = Plan.of(self.rules)
+        self.table = Table(of, self.plan.names)
+        self._reduction = reduction
+
+    @cached_property
+    def _reach(self) -> dict[str, int]:
+        return {label: self.plan.names.index(pose) for label, pose in self.of.reach.items()}
+
+    @cached_property
+    def _output(self) -> list[int]:
+        return [self.plan.names.index(name) for name in self.rules.names]
+
+    def solve(self, track: PhoneTrack) -> Solved:
+        """Take a line through stages 1 to 5.
+
+        Raises
+        ------
+        LabelError
+            If phones are unknown or overlap.
+        """
+        reduction = load_reduction(self._reduction or track.phone_set, self.of.phone_set)
+        classes, report = reduction.apply(track)
+        settings = self.rules.settings
+        spans = prepare(classes, settings.padding, settings.silence_reach)
+        if not spans.phones:
+            return Solved(spans, None, report)
+        placed = self.table.place(spans, settings.warp)
+        start, end = spans.start[0], spans.end[-1]
+        stages = run(placed, float(start), float(end), self.plan, self.rules)
+        return Solved(spans, stages, report)
+
+    def sample(self, solved: Solved, first: float, count: int, rate: float) -> Floats:
+        """Return stage 7 at ``first + k / rate``: (T, P) weights in the set's order."""
+        if solved.stages is None:
+            return np.zeros((count, len(self.plan.poses)))
+        stages = solved.stages
+        spline = self.rules.settings.spline
+        values = sample(stages.limited, stages.axis, self.plan.poses, first, count, rate, spline)
+        if self.rules.settings.solve == "together":
+            keep_closures(values, solved.spans, stages, self._reach, first, rate)
+        return self._kept_apart(values).T[:, self._output]
+
+    def _kept_apart(self, values: Floats) -> Floats:
+        """Apply the bounds once more to what is exported: softening bends them a little."""
+        for a, b, threshold in self.plan.bounds:
+            if self.rules.settings.bound == "ramp":
+                room = 1 - values[a] / threshold
+            else:
+                room = threshold - values[a]
+            np.minimum(values[b], np.maximum(room, 0.0), out=values[b])
+        return values
+
+    def animate(self, speech: Speech, rate: float = RATE) -> Animation:
+        """Return the animation of a line.
+
+        Parameters
+        ----------
+        speech : Speech
+            Its phones drive the mouth; its sound, if any, says how long to go on.
+        rate : float
+            Frames per second.
+
+        Returns
+        -------
+        Animation
+            Frames lie on whole multiples of ``1 / rate`` on the sound's clock, from the
+            first movement (or 0) to the last (or the sound's end). ``keys`` are those of
+            stage 5. The report names stand-ins.
+
+        Raises
+        ------
+        LabelError
+            If phones are unknown or overlap.
+        InputError
+            If the rate is out of range.
+        """
+        if not 1 <= rate <= FASTEST:
+            raise InputError(f"{rate:g} frames per second", expected=f"1 to {FASTEST:g}")
+        solved = self.solve(speech.phones)
+        start, end = self._range(solved, speech)
+        first = math.floor(start * rate + 1e-6)
+        count = max(math.ceil(end * rate - 1e-6) - first, 0) + 1
+        values = self.sample(solved, first / rate, count, rate)
+        return Animation(
+            self.rules.names,
+            np.ascontiguousarray(values, dtype=np.float32),
+            rate,
+            first / rate,
+            self.keys(solved),
+            speech.phones,
+            speech.words,
+            "bigram",
+            self._report(solved),
+        )
+
+    def _range(self, solved: Solved, speech: Speech) -> tuple[float, float]:
+        start, end = min(0.0, speech.phones.tier.start), speech.duration
+        if solved.stages is not None:
+            times = solved.stages.limited[0]
+            moving = self._moving(solved.stages.axis, times, solved.stages.limited[1])
+            start, end = min(start, moving[0]), max(end, moving[1])
+        return start, end
+
+    def _moving(self, axis: Axis, times: Floats, values: Floats) -> tuple[float, float]:
+        """First and last instant at which any pose is not at rest."""
+        active = np.flatnonzero(values > 1e-6)
+        if not len(active):
+            return math.inf, -math.inf
+        own = times - axis.block_of(times) * axis.width + axis.base
+        soft = max(pose.softness for pose in self.plan.poses)
+        before = own[np.maximum(active - 1, 0)]
+        after = own[np.minimum(active + 1, len(times) - 1)]
+        return float(before.min()) - soft, float(after.max()) + soft
+
+    def keys(self, solved: Solved) -> dict[str, Keys]:
+        """Return each pose's keys after stage 5; poses at rest have none."""
+        result: dict[str, Keys] = {}
+        if solved.stages is None:
+            return result
+        for name in self.rules.names:
+            number = self.plan.names.index(name)
+            times, values = solved.stages.axis.own(solved.stages.limited, number)
+            if values.any():
+                result[name] = Keys(times, values)
+        return result
+
+    def stand_ins(self, solved: Solved) -> list[Pair]:
+        """Return the pairs of a line that the set lacks, in order of appearance."""
+        numbers = self.table.rows_of(solved.spans.pairs)
+        used = [self.table.bigrams[number] for number in dict.fromkeys(numbers.tolist())]
+        return [bigram.pair for bigram in used if bigram.source == STAND_IN]
+
+    def _report(self, solved: Solved) -> dict[str, Any]:
+        return {
+            "set": self.of.name,
+            "preset": self.preset,
+            "bigrams": len(solved.spans.pairs),
+            "stand_ins": ["-".join(pair) for pair in self.stand_ins(solved)],
+            "nearest_classes": solved.reduction.stand_ins,
+        }

@@ -1,0 +1,294 @@
+"""Bigram sets and overrides as files that an animator opens (DESIGN sections 4 and 8).
+
+JSON, one pose's key list per line, in a stable order, so that a version-control diff
+shows what was done. Reading refuses what is broken with the place in the file.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import msgspec
+
+from lipwright.curves import Keys
+from lipwright.engines.bigram.model import (
+    Bigram,
+    BigramSet,
+    Curves,
+    Pair,
+    Pose,
+    Rules,
+    Settings,
+)
+from lipwright.errors import InputError, SetError
+from lipwright.files import convert, format_number, format_row, quote, read_document
+from lipwright.phones import PhoneSet, load_phone_set
+
+DATA = Path(__file__).parent.parent.parent / "data" / "sets"
+FORMAT, OVERRIDES_FORMAT, VERSION = "lipwright/bigram-set", "lipwright/bigram-overrides", 1
+
+KeyList = list[tuple[float, float]]
+
+
+class _Struct(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    pass
+
+
+class _Bigram(_Struct, frozen=True):
+    pair: tuple[str, str]
+    curves: dict[str, KeyList]
+    boundary: float | None = None
+    word: str = ""
+
+
+class _Set(_Struct, frozen=True):
+    version: int
+    name: str
+    rules: Rules
+    bigrams: list[_Bigram]
+    about: str = ""
+    phone_set: str = "common"
+    boundary: float = 0.5
+    phones: dict[str, dict[str, KeyList]] = {}
+    reach: dict[str, str] = {}
+    presets: dict[str, Rules] = {}
+
+
+class _Overrides(_Struct, frozen=True):
+    version: int
+    name: str
+    about: str = ""
+    boundary: float = 0.5
+    bigrams: list[_Bigram] = []
+    gains: dict[str, float] = {}
+    phones: dict[str, dict[str, KeyList]] = {}
+    poses: dict[str, dict[str, Any]] = {}
+    settings: dict[str, Any] = {}
+
+
+@cache
+def load_set(name: str) -> BigramSet:
+    """Return a set that comes with Lipwright by name, or the one in a ``.json`` file.
+
+    Raises
+    ------
+    SetError, FileFormatError
+        If it is unknown or broken; the message names the place in the file.
+    """
+    if name.endswith(".json"):
+        return read_set(name)
+    path = DATA / f"{name}.json"
+    if not path.exists():
+        known = ", ".join(sorted(p.stem for p in DATA.glob("*.json")))
+        raise SetError(f"no bigram set {name!r}", expected=f"one of {known}, or a .json file")
+    return read_set(path)
+
+
+def read_set(path: str | Path) -> BigramSet:
+    """Return the set in a file."""
+    where = str(path)
+    read = convert(read_document(path, format=FORMAT, version=VERSION), _Set, where)
+    try:
+        classes = load_phone_set(read.phone_set)
+        for label in (*read.phones, *read.reach):
+            _check_label(label, classes)
+        return BigramSet(
+            read.name,
+            read.phone_set,
+            read.rules,
+            _bigrams(read.bigrams, read.boundary, read.name, classes),
+            {label: _curves(c, f"phone {label!r}") for label, c in read.phones.items()},
+            read.reach,
+            read.presets,
+            read.about,
+        )
+    except InputError as error:
+        raise error.at(where) from None
+
+
+def _check_label(label: str, classes: PhoneSet) -> None:
+    if label not in classes.labels:
+        raise SetError(
+            f"{label!r} is not a phone of {classes.name!r}",
+            expected=f"one of {' '.join(classes.labels)}",
+        )
+
+
+def _curves(read: dict[str, KeyList], where: str) -> Curves:
+    curves = {}
+    for pose, keys in read.items():
+        try:
+            curves[pose] = Keys.of(keys)
+        except InputError as error:
+            raise error.at(f"{where}, pose {pose!r}") from None
+    return curves
+
+
+def _bigrams(
+    read: Iterable[_Bigram], boundary: float, source: str, classes: PhoneSet
+) -> dict[Pair, Bigram]:
+    bigrams: dict[Pair, Bigram] = {}
+    for entry in read:
+        for label in entry.pair:
+            _check_label(label, classes)
+        where = f"bigram {entry.pair[0]}-{entry.pair[1]}"
+        if entry.pair in bigrams:
+            raise SetError(f"{where} stands twice", cure="remove one of the two")
+        curves = _curves(entry.curves, where)
+        at = boundary if entry.boundary is None else entry.boundary
+        bigrams[entry.pair] = Bigram(entry.pair, curves, at, entry.word, source)
+    return bigrams
+
+
+def read_overrides(path: str | Path, base: BigramSet) -> BigramSet:
+    """Return ``base`` with what an override file changes (DESIGN section 4).
+
+    The file names only what differs: single bigrams, a gain for each pose, single-phone
+    curves, numbers of poses, settings.
+
+    Raises
+    ------
+    SetError, FileFormatError
+        If it is broken, or names what the set has not.
+    """
+    where = str(path)
+    document = read_document(path, format=OVERRIDES_FORMAT, version=VERSION)
+    read = convert(document, _Overrides, where)
+    try:
+        classes = load_phone_set(base.phone_set)
+        changed = _bigrams(read.bigrams, read.boundary, read.name, classes)
+        singles = {label: _curves(c, f"phone {label!r}") for label, c in read.phones.items()}
+        merged = replace(
+            base,
+            rules=_override_rules(base.rules, read, where),
+            bigrams={**base.bigrams, **changed},
+            singles={**base.singles, **singles},
+        )
+        return with_gains(merged, read.gains)
+    except InputError as error:
+        raise error.at(where) from None
+
+
+def _override_rules(rules: Rules, read: _Overrides, where: str) -> Rules:
+    for name in read.poses:
+        if name not in rules.names:
+            raise SetError(f"unknown pose {name!r}", expected=f"one of {', '.join(rules.names)}")
+    poses = []
+    for pose in rules.poses:
+        fields = {**msgspec.structs.asdict(pose), **read.poses.get(pose.name, {})}
+        poses.append(convert(fields, Pose, f"{where}, pose {pose.name!r}"))
+    settings = {**msgspec.structs.asdict(rules.settings), **read.settings}
+    changed = convert(settings, Settings, f"{where}, settings")
+    return msgspec.structs.replace(rules, poses=tuple(poses), settings=changed)
+
+
+def with_gains(base: BigramSet, gains: Mapping[str, float]) -> BigramSet:
+    """Return the set with the curves of some poses scaled; weights stay in 0..1."""
+    for name, gain in gains.items():
+        if name not in base.rules.names:
+            raise SetError(f"gain for the unknown pose {name!r}", expected=f"{base.rules.names}")
+        if not 0 <= gain <= 10:
+            raise SetError(f"gain {gain} for {name!r}", expected="0 to 10")
+    if not gains:
+        return base
+
+    def scaled(curves: Curves) -> Curves:
+        return {
+            pose: Keys(keys.times, (keys.values * gains.get(pose, 1.0)).clip(0, 1))
+            for pose, keys in curves.items()
+        }
+
+    return replace(
+        base,
+        bigrams={p: replace(b, curves=scaled(b.curves)) for p, b in base.bigrams.items()},
+        singles={label: scaled(curves) for label, curves in base.singles.items()},
+    )
+
+
+def set_bytes(of: BigramSet, boundary: float = 0.5) -> bytes:
+    """Return the content of a set's file: stable order, one key list per line."""
+    lines = [
+        "{",
+        f'  "format": {quote(FORMAT)},',
+        f'  "version": {VERSION},',
+        f'  "name": {quote(of.name)},',
+        f'  "about": {quote(of.about)},',
+        f'  "phone_set": {quote(of.phone_set)},',
+        f'  "boundary": {format_number(boundary)},',
+        f'  "reach": {_flat({k: quote(v) for k, v in of.reach.items()})},',
+        f'  "rules": {_rules_text(of.rules, "  ")},',
+        '  "presets": {',
+        *_joined(f"    {quote(n)}: {_rules_text(r, '    ')}" for n, r in of.presets.items()),
+        "  },",
+        '  "phones": {',
+        *_joined(f"    {quote(n)}: {_curves_text(c, '    ')}" for n, c in of.singles.items()),
+        "  },",
+        '  "bigrams": [',
+        *_joined(_bigram_text(bigram, boundary) for bigram in of.bigrams.values()),
+        "  ]",
+        "}",
+    ]
+    return ("\n".join(lines) + "\n").encode()
+
+
+def _joined(rows: Iterable[str]) -> list[str]:
+    listed = list(rows)
+    return [row + "," for row in listed[:-1]] + listed[-1:]
+
+
+def _flat(fields: Mapping[str, str]) -> str:
+    return "{" + ", ".join(f"{quote(name)}: {value}" for name, value in fields.items()) + "}"
+
+
+def _value(value: float | str) -> str:
+    return quote(value) if isinstance(value, str) else format_number(value)
+
+
+def _rules_text(rules: Rules, indent: str) -> str:
+    poses = (
+        f"{indent}    "
+        + _flat({field: _value(value) for field, value in msgspec.structs.asdict(pose).items()})
+        for pose in rules.poses
+    )
+    conflicts = (
+        f'{indent}    {{"poses": [{quote(c.poses[0])}, {quote(c.poses[1])}], '
+        f'"threshold": {format_number(c.threshold)}}}'
+        for c in rules.conflicts
+    )
+    settings = {n: _value(v) for n, v in msgspec.structs.asdict(rules.settings).items()}
+    return "\n".join(
+        [
+            "{",
+            f'{indent}  "poses": [',
+            *_joined(poses),
+            f"{indent}  ],",
+            f'{indent}  "conflicts": [',
+            *_joined(conflicts),
+            f"{indent}  ],",
+            f'{indent}  "settings": {_flat(settings)}',
+            f"{indent}}}",
+        ]
+    )
+
+
+def _curves_text(curves: Curves, indent: str) -> str:
+    if not curves:
+        return "{}"
+    rows = (
+        f"{indent}  {quote(pose)}: [" + ", ".join(format_row(pair) for pair in keys.pairs()) + "]"
+        for pose, keys in curves.items()
+    )
+    return "\n".join(["{", *_joined(rows), f"{indent}}}"])
+
+
+def _bigram_text(bigram: Bigram, boundary: float) -> str:
+    head = f'    {{"pair": [{quote(bigram.pair[0])}, {quote(bigram.pair[1])}], '
+    if bigram.word:
+        head += f'"word": {quote(bigram.word)}, '
+    if bigram.boundary != boundary:
+        head += f'"boundary": {format_number(bigram.boundary)}, '
+    return head + f'"curves": {_curves_text(bigram.curves, "    ")}}}'

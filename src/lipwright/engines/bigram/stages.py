@@ -1,0 +1,321 @@
+"""The stages of the bigram engine on keys: Figures 6 to 10 of Xu et al. 2013.
+
+placed (red) → stitched (green, blue) → smoothed (yellow) → constrained (cyan) → limited
+(magenta). All work exactly on piecewise-linear curves, all poses of a level at once
+(:mod:`~lipwright.engines.bigram.polyline`). Softening and sampling follow in
+:mod:`~lipwright.engines.bigram.softening`.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from lipwright.engines.bigram.model import Pose, Rules
+from lipwright.engines.bigram.polyline import (
+    FLAT,
+    Axis,
+    Floats,
+    Line,
+    combine,
+    crossings,
+    hold,
+    insert,
+    maxima,
+    merge_equal,
+    prune,
+    steepest_above,
+    steepest_below,
+)
+from lipwright.engines.bigram.table import Placed
+
+MARGIN = 0.05
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Plan:
+    """Poses in the order in which they are solved.
+
+    Poses of one level do not bound each other; a level is bounded only by those before
+    it. Within a level those that widen come first.
+
+    Parameters
+    ----------
+    poses : tuple of Pose
+    levels : tuple of (first, middle, last)
+        Numbers of the poses of each level: ``first..middle`` widen, ``middle..last`` are cut.
+    bounds : tuple of (a, b, C)
+        Pose number ``a`` bounds pose number ``b``.
+    """
+
+    poses: tuple[Pose, ...]
+    levels: tuple[tuple[int, int, int], ...]
+    bounds: tuple[tuple[int, int, float], ...]
+
+    @classmethod
+    def of(cls, rules: Rules) -> Plan:
+        """Order a set's poses."""
+        bounds = rules.bounds()
+        level: dict[str, int] = {}
+        for pose in sorted(rules.poses, key=lambda pose: -pose.priority):
+            above = [level[high.name] for high, low, _ in bounds if low is pose]
+            level[pose.name] = 1 + max(above) if above else 0
+
+        def widens(pose: Pose) -> bool:
+            # What a higher pose bounds cannot promise its peaks: it is cut like others.
+            return pose.meets == "widen" and level[pose.name] == 0
+
+        poses = sorted(rules.poses, key=lambda p: (level[p.name], not widens(p), -p.priority))
+        levels = []
+        for number in range(max(level.values()) + 1):
+            members = [i for i, pose in enumerate(poses) if level[pose.name] == number]
+            first, last = members[0], members[-1] + 1
+            levels.append((first, first + sum(map(widens, poses[first:last])), last))
+        names = [pose.name for pose in poses]
+        numbered = tuple((names.index(a.name), names.index(b.name), c) for a, b, c in bounds)
+        return cls(tuple(poses), tuple(levels), numbered)
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the poses in this order."""
+        return tuple(pose.name for pose in self.poses)
+
+    def margin(self) -> float:
+        """Seconds of room a block needs on each side for windows and slopes."""
+        slowest = max((1 / pose.limit for pose in self.poses if pose.meets == "widen"), default=0)
+        widest = max(max(pose.window, 2 * pose.softness) for pose in self.poses)
+        return MARGIN + float(slowest) + widest
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Stages:
+    """Every stage's result for one line, all poses on one axis.
+
+    Attributes
+    ----------
+    axis : Axis
+    placed : Placed
+    stitched, smoothed, constrained, limited : pair of (N,) float64
+        Key times on the axis and weights.
+    """
+
+    axis: Axis
+    placed: Placed
+    stitched: Line
+    smoothed: Line
+    constrained: Line
+    limited: Line
+
+
+def run(placed: Placed, start: float, end: float, plan: Plan, rules: Rules) -> Stages:
+    """Take placed keys through all stages.
+
+    Parameters
+    ----------
+    placed : Placed
+        Keys of ``plan``'s poses.
+    start, end : float
+        Seconds that the keys lie in.
+    plan : Plan
+        Of ``rules``.
+    rules : Rules
+    """
+    margin = plan.margin()
+    axis = Axis(start - margin, end - start + 2 * margin, len(plan.poses))
+    stitched = stitch(placed, axis)
+    smoothed = smooth(stitched, axis, plan, rules)
+    constrained, limited = bound(smoothed, axis, plan, rules)
+    return Stages(axis, placed, stitched, smoothed, constrained, limited)
+
+
+def _edges(axis: Axis) -> Floats:
+    return np.arange(axis.count, dtype=np.float64) * axis.width
+
+
+def stitch(placed: Placed, axis: Axis) -> Line:
+    """Return the pointwise maximum of all placed curves (Figure 7).
+
+    Bigrams overlap only their direct neighbours: the even ones and the odd ones are two
+    functions without overlap.
+    """
+    edges = _edges(axis)
+    ends = edges + axis.width * (1 - 1e-9)
+    lanes = []
+    for parity in (0, 1):
+        mine = (placed.bigram & 1) == parity
+        times = placed.pose[mine] * axis.width + (placed.times[mine] - axis.base)
+        times = np.concatenate((edges, times, ends))
+        values = np.concatenate((0 * edges, placed.values[mine], 0 * ends))
+        order = np.argsort(times, kind="stable")
+        lanes.append(merge_equal(times[order], values[order]))
+    return _pruned(combine(lanes[0], lanes[1]), axis)
+
+
+def _pruned(line: Line, axis: Axis) -> Line:
+    """Drop keys on a straight line; the zeros between blocks stay: they are never straight."""
+    times, values = prune(line)
+    edges = _edges(axis)
+    return insert((times, values), (edges, 0 * edges))
+
+
+def smooth(stitched: Line, axis: Axis, plan: Plan, rules: Rules) -> Line:
+    """Join maxima that lie close together by their chord (Figure 8)."""
+    parts: list[Line] = []
+    for first, _, last in plan.levels:
+        line = axis.cut(stitched, first, last)
+        stops: list[Line] = []
+        if rules.settings.chords == "stop":
+            stops = [
+                _stop(parts, axis, a, b, threshold)
+                for a, b, threshold in plan.bounds
+                if first <= b < last
+            ]
+        windows = np.array([pose.window for pose in plan.poses])
+        parts.append(_smooth(line, axis, windows, stops, rules.settings.valleys))
+    return _joined(parts)
+
+
+def _joined(parts: list[Line]) -> Line:
+    return np.concatenate([p[0] for p in parts]), np.concatenate([p[1] for p in parts])
+
+
+def _stop(parts: list[Line], axis: Axis, a: int, b: int, threshold: float) -> Line:
+    """Stretches (starts, ends), on pose b's block, in which pose a is above half of C."""
+    times, values = axis.onto(_joined(parts), a, b)
+    gap = values - 0.5 * threshold
+    up = np.flatnonzero((gap[:-1] <= 0) & (gap[1:] > 0))
+    down = np.flatnonzero((gap[:-1] > 0) & (gap[1:] <= 0))
+    crossed = []
+    for left in (up, down):
+        share = gap[left] / (gap[left] - gap[left + 1])
+        crossed.append(times[left] + share * (times[left + 1] - times[left]))
+    return crossed[0], crossed[1]
+
+
+def _smooth(line: Line, axis: Axis, windows: Floats, stops: list[Line], valleys: str) -> Line:
+    times, values = line
+    while True:
+        peaks = maxima(values)
+        if len(peaks) < 2:
+            return times, values
+        left, right = times[peaks[:-1]], times[peaks[1:]]
+        block = axis.block_of(left)
+        near = (right - left <= windows[block]) & (block == axis.block_of(right))
+        for starts, ends in stops:
+            before = np.searchsorted(ends, left, side="right")
+            near &= np.searchsorted(starts, right, side="left") <= before
+        lifted = _lift(times, values, peaks, near, valleys)
+        if lifted is None:
+            return times, values
+        times, values = lifted
+
+
+def _lift(
+    times: Floats, values: Floats, peaks: np.ndarray, near: np.ndarray, valleys: str
+) -> Line | None:
+    """Draw the chords of all near pairs of maxima at once; None where nothing changes."""
+    marks = np.zeros(len(times), dtype=np.int64)
+    marks[peaks] = 1
+    gap = np.cumsum(marks) - 1
+    inside = (gap >= 0) & (gap < len(near))
+    inside[inside] = near[gap[inside]]
+    chord = np.interp(times, times[peaks], values[peaks])
+    below = np.where(inside, chord - values, 0.0)
+    below[peaks] = 0.0
+    if valleys == "replace":
+        away = np.abs(below) > FLAT
+        return (times[~away], values[~away]) if away.any() else None
+    under = below > FLAT
+    if not under.any():
+        return None
+    between = inside[:-1]
+    when, height = crossings(times, np.where(inside, chord, values), values)
+    cross = np.flatnonzero(below[1:] * below[:-1] < 0)
+    keep = between[cross] & (under[cross] | under[cross + 1])
+    return insert((times[~under], values[~under]), (when[keep], height[keep]))
+
+
+def bound(smoothed: Line, axis: Axis, plan: Plan, rules: Rules) -> tuple[Line, Line]:
+    """Keep poses apart that exclude each other, and slopes below their limits.
+
+    Sections 3.2.2 and 3.2.3, Figures 9 and 10. ``together``: in falling priority each pose
+    takes the bound that the finished higher ones leave it, then a pose that widens becomes
+    the least function above its curve that keeps the limit, held by its softness; any other
+    the greatest below. ``in turn``: all bounds, then all limits, as published.
+
+    Returns
+    -------
+    constrained, limited : Line
+    """
+    if rules.settings.solve == "in turn":
+        constrained = _joined(_constrain_in_turn(smoothed, axis, plan, rules))
+        limits = np.array([pose.limit for pose in plan.poses])
+        return constrained, _pruned(steepest_below(constrained, axis, limits, 0), axis)
+    finished: list[Line] = []
+    bounded: list[Line] = []
+    softens = rules.settings.spline == "soften"
+    for first, middle, last in plan.levels:
+        wide = axis.cut(smoothed, first, middle)
+        if middle > first:
+            bounded.append(wide)
+            finished.append(_widened(wide, axis, plan.poses[first:middle], first, softens))
+        if last > middle:
+            cut = _bounded(smoothed, finished, axis, plan, rules, middle, last)
+            bounded.append(cut)
+            limits = np.array([pose.limit for pose in plan.poses[middle:last]])
+            finished.append(steepest_below(cut, axis, limits, middle))
+    return _joined(bounded), _pruned(_joined(finished), axis)
+
+
+def _widened(line: Line, axis: Axis, poses: tuple[Pose, ...], first: int, softens: bool) -> Line:
+    limits = np.array([pose.limit for pose in poses])
+    line = steepest_above(line, axis, limits, first)
+    if not (softens and any(pose.softness for pose in poses)):
+        return line
+    held = []
+    for number, pose in enumerate(poses, first):
+        times, values = hold(axis.cut(line, number, number + 1), pose.softness)
+        own = (times >= number * axis.width) & (times < (number + 1) * axis.width)
+        held.append((times[own], values[own]))
+    return merge_equal(*_joined(held))
+
+
+def _bounded(
+    smoothed: Line,
+    finished: list[Line],
+    axis: Axis,
+    plan: Plan,
+    rules: Rules,
+    first: int,
+    last: int,
+) -> Line:
+    """The blocks ``first..last`` under the bounds that finished poses leave them."""
+    if not any(first <= b < last for _, b, _ in plan.bounds):
+        return axis.cut(smoothed, first, last)
+    above = _joined(finished)
+    parts = []
+    for number in range(first, last):
+        line = axis.cut(smoothed, number, number + 1)
+        for a, b, threshold in plan.bounds:
+            if b == number:
+                room = _room(axis.onto(above, a, b), threshold, rules.settings.bound)
+                line = combine(line, room, "min")
+        parts.append(line)
+    return _joined(parts)
+
+
+def _room(higher: Line, threshold: float, kind: str) -> Line:
+    """What a pose of higher priority leaves to a lower one, on keys."""
+    times, values = higher
+    room = 1 - values / threshold if kind == "ramp" else threshold - values
+    return combine((times, room), (times[[0, -1]], np.zeros(2)), "max")
+
+
+def _constrain_in_turn(smoothed: Line, axis: Axis, plan: Plan, rules: Rules) -> list[Line]:
+    parts = [axis.cut(smoothed, n, n + 1) for n in range(axis.count)]
+    for a, b, threshold in plan.bounds:
+        times, values = parts[a]
+        moved = (times + (b - a) * axis.width, values)
+        parts[b] = combine(parts[b], _room(moved, threshold, rules.settings.bound), "min")
+    return parts

@@ -1,0 +1,145 @@
+"""What is known of English speech sounds, as far as a face shows it.
+
+Each class of the Common Phoneme Set has one or two *targets* (two for diphthongs: where
+the vowel begins and where it goes). A target is the level of each pose in that sound when
+nothing disturbs it. Consonants besides say how far they let their neighbours show through:
+the lips of a /t/ are free to take the shape of the vowel beside it, those of a /p/ are not.
+
+Levels are of the nine FaceFX poses, 0..1, relative to what the pose shows at 1. They follow
+what is common knowledge of the sounds of English: height of vowels (jaw and lips), rounding
+and spreading of the lips, place of articulation of the tongue, labial and labiodental
+closure. No recorded face was copied: no curve here is anybody's trajectory.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+Levels = dict[str, float]
+
+
+@dataclass(frozen=True)
+class Sound:
+    """One class of sounds.
+
+    Parameters
+    ----------
+    kind : str
+        ``"vowel"``, ``"consonant"``, ``"closure"`` or ``"silence"``.
+    first : dict of str to float
+        Target levels, at the beginning for a diphthong.
+    second : dict of str to float, optional
+        Where a diphthong goes.
+    at : tuple of two float
+        When the first and the last target are reached, as shares of the sound's time.
+    lets_through : dict of str to float
+        Share of a neighbour's level that shows in this sound, for each pose: the share of
+        the following sound (anticipation).
+    keeps : dict of str to float
+        The same of the sound before (carry-over): lips lag less than they anticipate.
+    """
+
+    kind: str
+    first: Levels
+    second: Levels | None = None
+    at: tuple[float, float] = (0.42, 0.58)
+    lets_through: Levels = field(default_factory=dict)
+    keeps: Levels = field(default_factory=dict)
+
+    @property
+    def last(self) -> Levels:
+        """The target that the sound ends with."""
+        return self.first if self.second is None else self.second
+
+
+def vowel(at: tuple[float, float] = (0.42, 0.58), **levels: float) -> Sound:
+    """Return a vowel that holds one shape."""
+    return Sound("vowel", levels, at=at)
+
+
+def diphthong(first: Levels, second: Levels, at: tuple[float, float] = (0.33, 0.74)) -> Sound:
+    """Return a vowel that moves from one shape to another."""
+    return Sound("vowel", first, second, at)
+
+
+def consonant(jaw: float, rounding: float, spreading: float, **levels: float) -> Sound:
+    """Return a consonant whose lips and jaw follow its neighbours by these shares."""
+    ahead = {"open": jaw, "W": rounding, "wide": spreading}
+    behind = {"open": 0.8 * jaw, "W": 0.55 * rounding, "wide": 0.8 * spreading}
+    return Sound("consonant", levels, lets_through=ahead, keeps=behind)
+
+
+SOUNDS: dict[str, Sound] = {
+    # Vowels. 'open' falls with vowel height; 'W' is rounding, 'wide' is spreading.
+    "ah": vowel(open=0.46, wide=0.16),
+    "aa": vowel(open=0.66, wide=0.06),
+    "ao": vowel(open=0.54, W=0.38),
+    "eh": vowel(open=0.42, wide=0.34),
+    "er": vowel(open=0.26, W=0.16, ShCh=0.34, tBack=0.25),
+    "ih": vowel(open=0.24, wide=0.55),
+    "w": vowel(open=0.12, W=0.88, tBack=0.30),
+    # Diphthongs: from … to …
+    "ow": diphthong({"open": 0.46, "W": 0.42}, {"open": 0.22, "W": 0.80}),
+    "aw": diphthong({"open": 0.66, "wide": 0.12}, {"open": 0.26, "W": 0.66}),
+    "oy": diphthong({"open": 0.42, "W": 0.68}, {"open": 0.26, "wide": 0.42}),
+    "ay": diphthong({"open": 0.68, "wide": 0.04}, {"open": 0.28, "wide": 0.44}),
+    # Consonants: jaw, rounding and spreading that they let through, then their own shape.
+    "h": consonant(0.75, 0.80, 0.80, open=0.06),
+    "r": consonant(0.35, 0.60, 0.20, open=0.12, W=0.30, ShCh=0.26, tBack=0.20),
+    "l": consonant(0.45, 0.45, 0.45, open=0.14, tRoof=0.80),
+    "z": consonant(0.10, 0.40, 0.40, open=0.07, wide=0.22, tRoof=0.35),
+    "sh": consonant(0.10, 0.50, 0.10, open=0.09, W=0.20, ShCh=0.82, tRoof=0.30),
+    "th": consonant(0.25, 0.35, 0.40, open=0.15, wide=0.06, tTeeth=0.85),
+    "d": consonant(0.28, 0.50, 0.50, open=0.09, wide=0.08, tRoof=0.82),
+    "kg": consonant(0.42, 0.55, 0.55, open=0.12, wide=0.05, tBack=0.78),
+    # Closures: what must be seen. The jaw may ride along, the lips may not.
+    "f": Sound(
+        "closure",
+        {"FV": 1.0, "open": 0.05},
+        at=(0.30, 0.66),
+        lets_through={"W": 0.30, "wide": 0.25},
+        keeps={"W": 0.15, "wide": 0.20},
+    ),
+    "bmp": Sound(
+        "closure",
+        {"PBM": 1.0},
+        at=(0.30, 0.66),
+        lets_through={"W": 0.45, "wide": 0.30},
+        keeps={"W": 0.25, "wide": 0.25},
+    ),
+    "sil": Sound("silence", {}),
+}
+
+CLOSING = {"bmp": "PBM", "f": "FV"}
+TONGUE = ("tBack", "tRoof", "tTeeth")
+
+#: A word for each pair where English has a common one; the brackets of phone examples
+#: are not needed: the pair says where to look.
+WORDS: dict[tuple[str, str], str] = {
+    ("f", "ah"): "fat", ("l", "ow"): "low", ("bmp", "ah"): "map", ("ah", "bmp"): "cup",
+    ("w", "ih"): "we", ("sh", "w"): "shoe", ("sh", "ih"): "she", ("th", "ah"): "the",
+    ("d", "w"): "do", ("d", "ih"): "tea", ("kg", "ow"): "go", ("kg", "w"): "cool",
+    ("kg", "ah"): "cat", ("h", "aw"): "how", ("h", "w"): "who", ("h", "ih"): "he",
+    ("h", "eh"): "head", ("bmp", "oy"): "boy", ("bmp", "ay"): "buy", ("bmp", "ih"): "be",
+    ("bmp", "w"): "boot", ("bmp", "eh"): "pet", ("bmp", "er"): "purr", ("bmp", "l"): "play",
+    ("bmp", "r"): "pray", ("f", "ih"): "feel", ("f", "ao"): "four", ("f", "er"): "fur",
+    ("f", "ay"): "five", ("f", "l"): "fly", ("f", "r"): "free", ("ah", "d"): "add",
+    ("ih", "d"): "eat", ("eh", "d"): "aid", ("aa", "d"): "odd", ("ao", "l"): "all",
+    ("aw", "d"): "out", ("ay", "d"): "eyed", ("oy", "l"): "oil", ("ow", "d"): "ode",
+    ("er", "d"): "heard", ("w", "d"): "food", ("ih", "z"): "is", ("z", "ih"): "see",
+    ("z", "d"): "stay", ("d", "z"): "bits", ("d", "d"): "and", ("d", "r"): "tree",
+    ("kg", "r"): "cry", ("kg", "l"): "clay", ("z", "l"): "slow", ("z", "w"): "sweet",
+    ("z", "bmp"): "spy", ("z", "kg"): "sky", ("l", "ih"): "lead", ("l", "ay"): "lie",
+    ("r", "eh"): "red", ("r", "ow"): "row", ("r", "ay"): "rye", ("r", "w"): "rue",
+    ("th", "ih"): "these", ("th", "r"): "three", ("ih", "th"): "teeth", ("w", "aa"): "want",
+    ("w", "er"): "were", ("w", "ah"): "one", ("w", "eh"): "wet", ("w", "ay"): "why",
+    ("kg", "d"): "act", ("l", "f"): "self", ("ah", "f"): "laugh", ("ih", "f"): "leaf",
+    ("eh", "bmp"): "ape", ("ih", "bmp"): "deep", ("ow", "bmp"): "hope", ("w", "bmp"): "hoop",
+    ("aa", "bmp"): "top", ("d", "kg"): "think", ("ih", "kg"): "seek", ("ah", "kg"): "back",
+    ("ah", "r"): "around", ("aa", "r"): "car", ("ao", "r"): "more", ("eh", "r"): "air",
+    ("ih", "r"): "ear", ("ah", "l"): "pal", ("eh", "l"): "sell", ("ih", "l"): "feel",
+    ("sh", "aa"): "shop", ("sh", "ow"): "show", ("sh", "er"): "shirt", ("d", "ow"): "no",
+    ("d", "ay"): "tie", ("d", "aw"): "down", ("d", "oy"): "toy", ("d", "ao"): "dog",
+    ("z", "ow"): "so", ("z", "eh"): "said", ("z", "ah"): "sat", ("z", "er"): "sir",
+    ("h", "ah"): "hat", ("h", "aa"): "hot", ("h", "er"): "her", ("h", "ow"): "home",
+}  # fmt: skip
