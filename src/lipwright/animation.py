@@ -189,8 +189,9 @@ class Animation:
                 read.report,
             )
         except InputError as error:
+            place = f"{where}, {error.where}" if error.where else where
             raise FileFormatError(
-                error.found, where=where, expected=error.expected, cure=error.cure
+                error.found, where=place, expected=error.expected, cure=error.cure
             ) from None
 
     @classmethod
@@ -231,7 +232,12 @@ def interval_from_row(row: list[str | float | None]) -> Interval:
 
 
 def _number(value: float) -> str:
-    return repr(float(value)).removesuffix(".0")
+    return _short(repr(float(value)))
+
+
+def _short(text: str) -> str:
+    # A JSON reader takes -0 for the whole number 0 and loses the sign.
+    return text if text == "-0.0" else text.removesuffix(".0")
 
 
 def _interval(interval: Interval) -> str:
@@ -242,7 +248,7 @@ def _interval(interval: Interval) -> str:
 
 
 def _frame(row: NDArray[np.float32]) -> str:
-    return "[" + ", ".join(str(value).removesuffix(".0") for value in row) + "]"
+    return "[" + ", ".join(_short(str(value)) for value in row) + "]"
 
 
 def _pairs(keys: Keys) -> str:

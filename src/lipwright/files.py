@@ -11,7 +11,10 @@ from __future__ import annotations
 import contextlib
 import errno
 import json
+import math
 import os
+import re
+import sys
 import tempfile
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
@@ -20,6 +23,12 @@ from typing import Any, NoReturn, TypeVar
 import msgspec
 
 from lipwright.errors import FileFormatError, InputError, OutputError
+
+STANDARD_STREAM = "-"
+"""The path that stands for standard input or output."""
+
+_FULL = (errno.ENOSPC, getattr(errno, "EDQUOT", errno.ENOSPC))
+_ANY_WRITE = 0o222
 
 T = TypeVar("T")
 Upgrade = Callable[[dict[str, Any]], dict[str, Any]]
@@ -45,6 +54,8 @@ def read_bytes(path: str | Path) -> bytes:
         raise InputError("may not be read", where=str(path), cure="check its rights") from None
     except OSError as error:
         raise InputError(f"cannot be read ({error.strerror})", where=str(path)) from None
+    except ValueError as error:  # a zero byte in the name
+        raise InputError(f"cannot be read ({error})", where=repr(str(path))) from None
 
 
 def _refuse_duplicates(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
@@ -60,6 +71,17 @@ def _refuse_constant(name: str) -> NoReturn:
     raise FileFormatError(f"the number {name}", expected="finite numbers")
 
 
+def _finite(text: str) -> float:
+    value = float(text)
+    if value in (math.inf, -math.inf):
+        _refuse_constant(text)
+    return value
+
+
+_HUGE = re.compile(rb"[eE][+]?\d{3}|\d{300}")
+_HALF_A_LETTER = re.compile(rb"\\u[dD][89a-fA-F]")
+
+
 def parse_json(data: bytes, where: str) -> Any:
     """Return the JSON value in ``data``; ``where`` names it in errors.
 
@@ -69,10 +91,15 @@ def parse_json(data: bytes, where: str) -> Any:
         For bytes that are not UTF-8, broken JSON, duplicate keys, NaN or Infinity.
     """
     try:
-        text = data.decode("utf-8-sig")
-        return json.loads(
-            text, object_pairs_hook=_refuse_duplicates, parse_constant=_refuse_constant
+        value = json.loads(
+            data.decode("utf-8-sig"),
+            object_pairs_hook=_refuse_duplicates,
+            parse_constant=_refuse_constant,
+            parse_float=_finite if _HUGE.search(data) else None,
         )
+        if _HALF_A_LETTER.search(data):
+            json.dumps(value, ensure_ascii=False).encode()
+        return value
     except UnicodeDecodeError as error:
         raise FileFormatError(
             f"byte {error.start} is not UTF-8 text", where=where, expected="a JSON file in UTF-8"
@@ -83,8 +110,14 @@ def parse_json(data: bytes, where: str) -> Any:
         ) from None
     except FileFormatError as error:
         raise error.at(where) from None
+    except UnicodeEncodeError:
+        raise FileFormatError(
+            "an escape \\ud8.. without its other half", where=where, expected="whole letters"
+        ) from None
     except RecursionError:
         raise FileFormatError("nested too deeply", where=where) from None
+    except ValueError:  # Python refuses whole numbers of thousands of digits
+        raise FileFormatError("a number that is too long", where=where) from None
 
 
 def check_document(
@@ -163,37 +196,91 @@ def read_document(
     )
 
 
+def check_target(path: str | Path) -> None:
+    """Refuse a name that cannot be written, before work is spent on what goes there.
+
+    A file without any right to write is refused even where the user could replace it:
+    someone meant it to stay.
+
+    Raises
+    ------
+    OutputError
+        If it is a folder or read-only, or its folder does not exist.
+    """
+    target = Path(path)
+    try:
+        if target.is_dir():
+            raise OutputError("is a folder", where=str(path), expected="a file's name")
+        if not target.parent.is_dir():
+            raise _output_error(OSError(errno.ENOENT, ""), path)
+        if target.exists() and not (
+            target.stat().st_mode & _ANY_WRITE and os.access(target, os.W_OK)
+        ):
+            raise OutputError("is read-only", where=str(path), cure="choose another name")
+    except OutputError:
+        raise
+    except OSError as error:
+        raise _output_error(error, path) from None
+
+
 def write_atomically(path: str | Path, data: bytes) -> None:
     """Put ``data`` into a file, whole; on failure what was there stays as it was.
+
+    A link is followed. What is no file (a pipe, a device) is written into, never replaced.
 
     Raises
     ------
     OutputError
         If the folder is missing, the disk is full, or writing is not allowed.
     """
-    target = Path(path)
-    if target.is_symlink():
-        target = target.resolve()
-    if target.is_dir():
-        raise OutputError("is a folder", where=str(path), expected="a file's name")
-    if target.exists() and not os.access(target, os.W_OK):
-        raise OutputError("is read-only", where=str(path), cure="choose another name")
-    name = None
+    check_target(path)
     try:
-        handle, name = tempfile.mkstemp(dir=target.parent, prefix=".lipwright-", suffix=".part")
+        if Path(path).exists() and not Path(path).is_file():
+            Path(path).write_bytes(data)
+        else:
+            _replace(Path(os.path.realpath(path)), data)
+    except OSError as error:
+        raise _output_error(error, path) from None
+    except ValueError as error:  # a zero byte in the name
+        raise OutputError(f"cannot be written ({error})", where=repr(str(path))) from None
+
+
+def _replace(target: Path, data: bytes) -> None:
+    rights = target.stat().st_mode & 0o777 if target.exists() else 0o666 & ~_umask()
+    handle, name = tempfile.mkstemp(dir=target.parent, prefix=".lipwright-", suffix=".part")
+    part = Path(name)
+    try:
         with os.fdopen(handle, "wb") as file:
             file.write(data)
             file.flush()
             os.fsync(file.fileno())
-        Path(name).chmod(target.stat().st_mode & 0o777 if target.exists() else 0o666 & ~_umask())
-        Path(name).replace(target)
-    except BaseException as error:
-        if name is not None:
-            with contextlib.suppress(OSError):
-                Path(name).unlink()
-        if isinstance(error, OSError):
-            raise _output_error(error, path) from None
+        part.chmod(rights)
+        part.replace(target)
+    except BaseException:
+        with contextlib.suppress(OSError):
+            part.unlink()
         raise
+
+
+def write_output(path: str | Path, data: bytes) -> None:
+    """Write ``data`` to a file, or to standard output where ``path`` is ``"-"``.
+
+    Raises
+    ------
+    OutputError
+        If it cannot be written.
+    """
+    if str(path) != STANDARD_STREAM:
+        write_atomically(path, data)
+        return
+    try:
+        sys.stdout.flush()
+        sys.stdout.buffer.write(data)
+        sys.stdout.buffer.flush()
+    except OSError as error:
+        with contextlib.suppress(OSError):  # else the interpreter tries again when it ends
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        raise _output_error(error, "standard output") from None
 
 
 def _umask() -> int:
@@ -204,14 +291,17 @@ def _umask() -> int:
 
 def _output_error(error: OSError, path: str | Path) -> OutputError:
     folder = str(Path(path).parent)
-    if error.errno == errno.ENOSPC:
+    if error.errno in _FULL:
         return OutputError("the disk is full", where=str(path), cure="free some space, then again")
     if error.errno in (errno.ENOENT, errno.ENOTDIR):
         return OutputError(
             f"the folder {folder!r} does not exist", where=str(path), cure="make it first"
         )
     if error.errno in (errno.EACCES, errno.EPERM, errno.EROFS):
-        return OutputError(f"the folder {folder!r} is read-only", where=str(path))
+        return OutputError(
+            f"the folder {folder!r} is read-only, or another program holds the file",
+            where=str(path),
+        )
     return OutputError(f"cannot be written ({error.strerror})", where=str(path))
 
 

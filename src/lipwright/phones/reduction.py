@@ -8,7 +8,7 @@ with its share of the time.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
 
@@ -94,29 +94,37 @@ class Reduction:
         LabelError
             If labels are unknown: all of them are named at once.
         """
-        unknown: list[str] = []
         report = ReductionReport()
+        known = self._pieces({phone.label for phone in track}, report)
         reduced: list[Interval] = []
         for phone in track:
-            if phone.label == SILENCE:
-                reduced.append(phone)
-                continue
+            pieces = known[phone.label]
+            if len(pieces) == 1:
+                label = pieces[0].label
+                reduced.append(Interval(label, phone.start, phone.end, phone.confidence))
+            else:
+                reduced.extend(_split(phone, pieces))
+        return PhoneTrack(Tier(tuple(reduced)), self.target), report
+
+    def _pieces(self, labels: set[str], report: ReductionReport) -> dict[str, tuple[Piece, ...]]:
+        known = {SILENCE: (Piece(SILENCE),)}
+        unknown = []
+        for label in sorted(labels - {SILENCE}):
             try:
-                pieces, exact = self.of(phone.label)
+                pieces, exact = self.of(label)
             except LabelError:
-                if phone.label not in unknown:
-                    unknown.append(phone.label)
+                unknown.append(label)
                 continue
+            known[label] = pieces
             names = " ".join(piece.label for piece in pieces)
-            (report.exact if exact else report.stand_ins)[phone.label] = names
-            reduced.extend(_split(phone, pieces))
+            (report.exact if exact else report.stand_ins)[label] = names
         if unknown:
             raise LabelError(
                 f"{', '.join(map(repr, unknown))}: no class in the reduction "
                 f"{self.source} to {self.target}",
                 cure="add it to the reduction file",
             )
-        return PhoneTrack(Tier(tuple(reduced)), self.target), report
+        return known
 
 
 def _split(phone: Interval, pieces: tuple[Piece, ...]) -> list[Interval]:
@@ -127,7 +135,7 @@ def _split(phone: Interval, pieces: tuple[Piece, ...]) -> list[Interval]:
         passed += piece.share / total
         last = index == len(pieces) - 1
         end = phone.end if last else phone.start + passed * phone.duration
-        result.append(replace(phone, label=piece.label, start=start, end=end))
+        result.append(Interval(piece.label, start, end, phone.confidence))
         start = end
     return result
 

@@ -41,11 +41,10 @@ def keep_closures(
     """
     count = values.shape[1]
     for pose in set(reach.values()):
-        phones = [p for p in spans.phones if reach.get(p.label) == pose]
-        if not phones:
+        mine = np.flatnonzero([reach.get(label) == pose for label in spans.labels])
+        if not len(mine):
             continue
-        starts = np.array([phone.start for phone in phones])
-        ends = np.array([phone.end for phone in phones])
+        starts, ends = spans.starts[mine], spans.ends[mine]
         peaks = _peaks(stages, pose, starts, ends)
         for start, end, peak in zip(starts.tolist(), ends.tolist(), peaks.tolist(), strict=True):
             low = math.ceil((start - first) * rate - 1e-9)

@@ -98,11 +98,11 @@ class BigramEngine:
         reduction = load_reduction(self._reduction or track.phone_set, self.of.phone_set)
         classes, report = reduction.apply(track)
         settings = self.rules.settings
-        spans = prepare(classes, settings.padding, settings.silence_reach)
-        if not spans.phones:
+        spans = prepare(classes.tier, settings.padding, settings.silence_reach)
+        if not spans.labels:
             return Solved(spans, None, report)
         placed = self.table.place(spans, settings.warp)
-        start, end = spans.start[0], spans.end[-1]
+        start, end = spans.first[0], spans.last[-1]
         stages = run(placed, float(start), float(end), self.plan, self.rules)
         return Solved(spans, stages, report)
 

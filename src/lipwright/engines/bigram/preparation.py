@@ -6,7 +6,6 @@ so every line starts and ends in silence.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -15,124 +14,116 @@ import numpy as np
 from lipwright.engines.bigram.polyline import Floats, Ints
 from lipwright.errors import LabelError
 from lipwright.phones import SILENCE
-from lipwright.timeline import Interval
+from lipwright.timeline import Tier
 
 ROUNDING = 0.010
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Spans:
-    """Where each bigram lies in time.
+    """Where each phone and each bigram lies in time.
 
     Parameters
     ----------
-    phones : tuple of Interval
-        N prepared phones, without gaps, silence at both ends; none where nothing is said.
+    labels : tuple of str
+        N classes, silence at both ends; none where nothing is said.
+    starts, ends : (N,) float64
+        Seconds of each phone; there are no gaps.
     origins : (N,) int
         Which phone of the input each one is; -1 for silences that were put in.
-    start, boundary, end : (N - 1,) float64
+    first, boundary, last : (N - 1,) float64
         Seconds of each bigram: of its silence only the part next to the phone.
     """
 
-    phones: tuple[Interval, ...]
+    labels: tuple[str, ...]
+    starts: Floats
+    ends: Floats
     origins: Ints
-    start: Floats
+    first: Floats
     boundary: Floats
-    end: Floats
+    last: Floats
 
     @property
     def pairs(self) -> list[tuple[str, str]]:
         """The classes of each bigram."""
-        labels = [phone.label for phone in self.phones]
-        return list(pairwise(labels))
+        return list(pairwise(self.labels))
 
 
-def prepare(phones: Iterable[Interval], padding: float, silence_reach: float) -> Spans:
+def prepare(phones: Tier, padding: float, silence_reach: float) -> Spans:
     """Return the bigrams of a line and their times.
 
     Parameters
     ----------
-    phones : iterable of Interval
-        Classes of the set, in order; gaps over 10 ms become silence, smaller ones and
-        overlaps under 10 ms are closed in the middle.
+    phones : Tier
+        Classes of the set, in order; gaps of 10 ms and more become silence, smaller ones
+        are closed in the middle.
     padding, silence_reach : float
         Seconds, see :class:`~lipwright.engines.bigram.model.Settings`.
 
     Raises
     ------
     LabelError
-        If phones are out of order or overlap by 10 ms or more: it names both.
+        If a phone has no length: it names it.
     """
-    rows = _closed(list(phones))
-    rows = _merged(rows)
-    if all(phone.label == SILENCE for phone, _ in rows):
-        rows = []
-    if rows:
-        first, last = rows[0][0], rows[-1][0]
-        if first.label != SILENCE:
-            rows.insert(0, (Interval(SILENCE, first.start - padding, first.start), -1))
-        if last.label != SILENCE:
-            rows.append((Interval(SILENCE, last.end, last.end + padding), -1))
-    return _spans(rows, silence_reach)
-
-
-Row = tuple[Interval, int]
-
-
-def _closed(phones: list[Interval]) -> list[Row]:
-    starts = [phone.start for phone in phones]
-    ends = [phone.end for phone in phones]
-    rows: list[Row] = []
-    silences: dict[int, Row] = {}
-    for index in range(len(phones) - 1):
-        gap = starts[index + 1] - ends[index]
-        if gap >= ROUNDING:
-            silences[index] = (Interval(SILENCE, ends[index], starts[index + 1]), -1)
-        elif gap > -ROUNDING:
-            middle = 0.5 * (starts[index + 1] + ends[index]) if gap else ends[index]
-            ends[index] = starts[index + 1] = middle
-        else:
-            raise LabelError(
-                f"{_name(phones[index])} and {_name(phones[index + 1])} overlap",
-                where=f"phones {index + 1} and {index + 2}",
-                expected="phones in order, overlapping by less than 10 ms",
-            )
-    for index, phone in enumerate(phones):
-        if ends[index] <= starts[index]:
-            raise LabelError(
-                f"{_name(phone)} has no length once overlaps are closed",
-                where=f"phone {index + 1}",
-            )
-        rows.append((Interval(phone.label, starts[index], ends[index], phone.confidence), index))
-        if index in silences:
-            rows.append(silences[index])
-    return rows
-
-
-def _name(phone: Interval) -> str:
-    return f"{phone.label!r} ({phone.start:.3f} to {phone.end:.3f} s)"
-
-
-def _merged(rows: list[Row]) -> list[Row]:
-    merged: list[Row] = []
-    for phone, origin in rows:
-        if merged and phone.label == SILENCE == merged[-1][0].label:
-            before, known = merged[-1]
-            whole = Interval(SILENCE, before.start, phone.end)
-            merged[-1] = (whole, max(known, origin))
-        else:
-            merged.append((phone, origin))
-    return merged
-
-
-def _spans(rows: list[Row], silence_reach: float) -> Spans:
-    phones = tuple(phone for phone, _ in rows)
+    line = _Line([], [], [], [])
     starts = np.array([phone.start for phone in phones])
     ends = np.array([phone.end for phone in phones])
-    silent = np.array([phone.label == SILENCE for phone in phones], dtype=bool)
-    start, boundary, end = starts[:-1].copy(), starts[1:].copy(), ends[1:].copy()
+    gaps = starts[1:] - ends[:-1]
+    close = (gaps != 0) & (gaps < ROUNDING)
+    middles = 0.5 * (starts[1:] + ends[:-1])[close]
+    starts[1:][close] = middles
+    ends[:-1][close] = middles
+    silences = np.append(gaps >= ROUNDING, [False]).tolist()
+    rows = zip(phones, starts.tolist(), ends.tolist(), silences, strict=True)
+    for index, (phone, start, end, silence) in enumerate(rows):
+        line.add(phone.label, start, end, index)
+        if silence:
+            line.add(SILENCE, end, float(starts[index + 1]), -1)
+    if all(label == SILENCE for label in line.labels):
+        line = _Line([], [], [], [])
+    if line.labels and line.labels[0] != SILENCE:
+        line.insert_before(padding)
+    if line.labels and line.labels[-1] != SILENCE:
+        line.add(SILENCE, line.ends[-1], line.ends[-1] + padding, -1)
+    return _spans(line, silence_reach)
+
+
+@dataclass(slots=True)
+class _Line:
+    """Columns of a line under construction."""
+
+    labels: list[str]
+    starts: list[float]
+    ends: list[float]
+    origins: list[int]
+
+    def add(self, label: str, start: float, end: float, origin: int) -> None:
+        if end <= start:
+            raise LabelError(
+                f"{label!r} at {start:.6g} s has no length", where=f"phone {origin + 1}"
+            )
+        if label == SILENCE and self.labels and self.labels[-1] == SILENCE:
+            self.ends[-1] = end
+            self.origins[-1] = max(self.origins[-1], origin)
+            return
+        self.labels.append(label)
+        self.starts.append(start)
+        self.ends.append(end)
+        self.origins.append(origin)
+
+    def insert_before(self, padding: float) -> None:
+        self.labels.insert(0, SILENCE)
+        self.ends.insert(0, self.starts[0])
+        self.starts.insert(0, self.starts[0] - padding)
+        self.origins.insert(0, -1)
+
+
+def _spans(line: _Line, silence_reach: float) -> Spans:
+    starts, ends = np.array(line.starts), np.array(line.ends)
+    silent = np.array([label == SILENCE for label in line.labels], dtype=bool)
+    first, boundary, last = starts[:-1].copy(), starts[1:].copy(), ends[1:].copy()
     before, after = silent[:-1], silent[1:]
-    start[before] = np.maximum(start[before], boundary[before] - silence_reach)
-    end[after] = np.minimum(end[after], boundary[after] + silence_reach)
-    origins = np.array([origin for _, origin in rows], dtype=np.int64)
-    return Spans(phones, origins, start, boundary, end)
+    first[before] = np.maximum(first[before], boundary[before] - silence_reach)
+    last[after] = np.minimum(last[after], boundary[after] + silence_reach)
+    origins = np.array(line.origins, dtype=np.int64)
+    return Spans(tuple(line.labels), starts, ends, origins, first, boundary, last)

@@ -102,7 +102,7 @@ class Table:
         offset = np.cumsum(counts) - counts
         rows = self._flat[np.repeat(self._first[numbers] - offset, counts) + np.arange(len(bigram))]
         pose, share, boundary, values = rows.T
-        start, middle, end = spans.start[bigram], spans.boundary[bigram], spans.end[bigram]
+        start, middle, end = spans.first[bigram], spans.boundary[bigram], spans.last[bigram]
         if warp == "linear":
             times = start + share * (end - start)
         else:

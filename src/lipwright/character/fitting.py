@@ -1,0 +1,252 @@
+"""Fitting a mapping to a rig: which channels it has, what is missing, what stands in.
+
+Of the known vocabularies, the one of whose names the rig has the largest share is taken.
+A control is made by its row; where the rig lacks a channel of it, by another row of the
+vocabulary that it has whole; else by what is there. A control that is itself the name of
+one of the rig's channels moves that channel.
+"""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from lipwright.animation import Animation
+from lipwright.character.mapping import Mapping, Row
+from lipwright.character.names import match_names
+from lipwright.character.rig import Rig
+from lipwright.character.vocabulary import vocabularies
+from lipwright.errors import CharacterError
+
+EXACT, PARTLY, STAND_IN, MISSING = "exact", "partly", "stand-in", "missing"
+
+
+@dataclass(frozen=True, slots=True)
+class FittedControl:
+    """How one control is made on a rig.
+
+    Parameters
+    ----------
+    control : str
+        Its name.
+    weights : dict of str to float
+        The weight of each morph target.
+    status : str
+        ``"exact"``; ``"partly"``, where some of its channels are not there;
+        ``"stand-in"``, made of something else; or ``"missing"``.
+    missing : tuple of str
+        The channels that its row asks for and the rig has not.
+    note : str
+        What the mapping says about it.
+    """
+
+    control: str
+    weights: Row
+    status: str
+    missing: tuple[str, ...] = ()
+    note: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Fitting:
+    """A mapping as it fits a rig.
+
+    Parameters
+    ----------
+    vocabulary : str
+        The name of the vocabulary, or nothing where none fits.
+    found, asked : int
+        How many of the vocabulary's channels the rig has, and how many it uses.
+    controls : dict of str to FittedControl
+        How each control is made.
+    gains : dict of str to float
+        What a control is multiplied by, 1 where none is given.
+    limits : dict of str to tuple of float
+        The least and greatest value of a morph target, 0 and 1 where none are given.
+    targets : tuple of str
+        All morph targets of the rig.
+    """
+
+    vocabulary: str
+    found: int
+    asked: int
+    controls: dict[str, FittedControl]
+    gains: Row = field(default_factory=dict)
+    limits: dict[str, tuple[float, float]] = field(default_factory=dict)
+    targets: tuple[str, ...] = ()
+
+    def weights_of(self, control: str) -> Row:
+        """Return the morph targets that a control moves, with its gain; none if it cannot."""
+        if control in self.controls:
+            gain = self.gains.get(control, 1.0)
+            weights = self.controls[control].weights
+            return {target: weight * gain for target, weight in weights.items()}
+        direct = match_names(self.targets, {control: ()})
+        return dict.fromkeys(direct.get(control, ()), self.gains.get(control, 1.0))
+
+    def drive(self, animation: Animation) -> Animation:
+        """Return the values of the rig's morph targets over time.
+
+        Parameters
+        ----------
+        animation : Animation
+            Of the set's controls.
+
+        Returns
+        -------
+        Animation
+            Its controls are the morph targets that the mapping moves.
+
+        Raises
+        ------
+        CharacterError
+            If none of the controls moves anything.
+        """
+        rows = [self.weights_of(control) for control in animation.controls]
+        targets = tuple(dict.fromkeys(target for row in rows for target in row))
+        if not targets:
+            raise CharacterError(
+                f"none of the controls ({_some(animation.controls)}) moves anything",
+                expected=f"one of the rig's {len(self.targets)} morph targets "
+                f"({_some(self.targets)})",
+                cure="write a mapping for it: see 'lipwright character inspect'",
+            )
+        matrix = np.array([[row.get(target, 0.0) for target in targets] for row in rows])
+        limits = np.array([self.limits.get(target, (0.0, 1.0)) for target in targets])
+        values = np.clip(animation.values @ matrix, limits[:, 0], limits[:, 1])
+        return replace(animation, controls=targets, values=values.astype(np.float32), keys={})
+
+    def to_mapping(self, name: str) -> Mapping:
+        """Return it as a mapping in the rig's own names, to be written and edited."""
+        return Mapping(
+            name,
+            {control: fitted.weights for control, fitted in self.controls.items()},
+            gains={control: self.gains.get(control, 1.0) for control in self.controls},
+            limits=self.limits,
+            notes={c: fitted.note for c, fitted in self.controls.items() if fitted.note},
+        )
+
+
+def fit(rig: Rig, mapping: Mapping | None = None, where: str = "mapping") -> Fitting:
+    """Fit a rig to the vocabulary that it speaks, or to a user's mapping.
+
+    Parameters
+    ----------
+    rig : Rig
+        The rig.
+    mapping : Mapping, optional
+        A user's mapping: its rows, gains and limits go before the vocabulary's.
+    where : str
+        The mapping's name in errors.
+
+    Raises
+    ------
+    CharacterError
+        If the user's mapping names channels that the rig has not.
+    """
+    found = _fit_vocabulary(rig)
+    if mapping is None:
+        return found
+    names = _find(rig, mapping)
+    unknown = [channel for channel in mapping.channels if channel not in names]
+    unknown += [channel for channel in mapping.limits if channel not in names]
+    if unknown:
+        raise _unknown(unknown, rig, where)
+    own = {control: _fit_control(control, mapping, names) for control in mapping.controls}
+    return replace(
+        found,
+        controls={**found.controls, **own},
+        gains={**found.gains, **mapping.gains},
+        limits={**found.limits, **_limits(mapping, names)},
+    )
+
+
+def _fit_vocabulary(rig: Rig) -> Fitting:
+    best = Fitting("", 0, 0, {}, targets=rig.targets)
+    for vocabulary in vocabularies():
+        names = _find(rig, vocabulary)
+        asked, found = len(vocabulary.channels), len(names)
+        controls = {c: _fit_control(c, vocabulary, names) for c in vocabulary.controls}
+        opens = controls["open"].status != MISSING
+        if opens and found * max(best.asked, 1) > best.found * asked:
+            limits = _limits(vocabulary, names)
+            best = Fitting(
+                vocabulary.name, found, asked, controls, vocabulary.gains, limits, rig.targets
+            )
+    return best
+
+
+def _find(rig: Rig, mapping: Mapping) -> dict[str, Row]:
+    """Return, for each channel of the mapping that the rig has, the morph targets behind it."""
+    known = {name: mapping.names.get(name, ()) for name in (*mapping.channels, *mapping.limits)}
+    by_expression = match_names(tuple(rig.expressions), known)
+    exactly = {name: (name,) for name in known if name in rig.targets}
+    by_target = {**match_names(rig.targets, known), **exactly}
+    found = {}
+    for name in known:
+        if name in by_expression and name not in exactly:
+            found[name] = _sum(rig.expressions[e] for e in by_expression[name])
+        elif name in by_target:
+            found[name] = dict.fromkeys(by_target[name], 1.0)
+    return found
+
+
+def _fit_control(control: str, mapping: Mapping, names: dict[str, Row]) -> FittedControl:
+    rows = [mapping.controls[control], *mapping.otherwise.get(control, ())]
+    note = mapping.notes.get(control, "")
+    missing = tuple(channel for channel in rows[0] if channel not in names)
+    if not rows[0]:
+        return FittedControl(control, {}, MISSING, note=note)
+    whole = next((row for row in rows if row and all(channel in names for channel in row)), None)
+    row = whole or max(rows, key=lambda row: _share(row, names))
+    weights = _sum(
+        {target: weight * row[channel] for target, weight in names[channel].items()}
+        for channel in row
+        if channel in names
+    )
+    if not weights:
+        status = MISSING
+    elif row is rows[0]:
+        status = PARTLY if missing else EXACT
+    else:
+        status = STAND_IN
+    return FittedControl(control, weights, status, missing, note)
+
+
+def _share(row: Row, names: dict[str, Row]) -> float:
+    total = sum(map(abs, row.values()))
+    return sum(abs(v) for channel, v in row.items() if channel in names) / total if total else 0.0
+
+
+def _sum(rows: Iterable[Row]) -> Row:
+    total: Row = {}
+    for row in rows:
+        for target, weight in row.items():
+            total[target] = total.get(target, 0.0) + weight
+    return total
+
+
+def _limits(mapping: Mapping, names: dict[str, Row]) -> dict[str, tuple[float, float]]:
+    return {
+        target: limits
+        for channel, limits in mapping.limits.items()
+        for target in names.get(channel, ())
+    }
+
+
+def _unknown(unknown: Sequence[str], rig: Rig, where: str) -> CharacterError:
+    first = unknown[0]
+    near = difflib.get_close_matches(first, rig.targets, 3, 0.5)
+    return CharacterError(
+        f"the model has no channel {', '.join(map(repr, dict.fromkeys(unknown)))}",
+        where=where,
+        expected=f"one of {_some(rig.targets)}",
+        cure=f"did you mean {' or '.join(map(repr, near))}?" if near else "",
+    )
+
+
+def _some(names: Sequence[str], count: int = 8) -> str:
+    return ", ".join(names[:count]) + (", …" if len(names) > count else "")

@@ -1,0 +1,67 @@
+"""The eyelids: loops from the window's edge to the eyeball, for the left eye."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lipwright.character.head.relief import relief
+from lipwright.character.head.surface import front
+
+Floats = NDArray[np.float64]
+
+EYE_CENTER = np.array([0.0318, 0.0, 0.0655])
+EYE_RADIUS = 0.0128
+_INNER = (0.0158, -0.0022)  # corners of the opening
+_OUTER = (0.0478, 0.0010)
+_UPPER_RISE, _LOWER_FALL = 0.0072, 0.0062
+_SHARES = (0.28, 0.50, 0.68, 0.83)  # of the way from the window's edge to the lid's rim
+RIM = len(_SHARES)  # the lid's front rim, counted from the first loop made here
+
+
+def opening(count: int) -> tuple[Floats, Floats]:
+    """Return the lids' rim, clockwise from the upper inner side: (n, 2) metres, and its turn.
+
+    The turn is 0 at the inner corner, 0.5 at the outer one, 1 at the inner one again.
+    """
+    turn = (np.arange(count) + 2.0) / count % 1.0
+    along = 0.5 - 0.5 * np.cos(2 * np.pi * turn)
+    x = _INNER[0] + (_OUTER[0] - _INNER[0]) * along
+    y = _INNER[1] + (_OUTER[1] - _INNER[1]) * along
+    upper = turn < 0.5
+    high = _UPPER_RISE * np.sin(np.pi * along**0.92) ** 0.75
+    low = -_LOWER_FALL * np.sin(np.pi * along**1.15) ** 0.85
+    return np.stack([x, y + np.where(upper, high, low)], axis=1), turn
+
+
+def ball_front(xy: Floats, radius: float) -> Floats:
+    """Return the eyeball's depth at (x, y), going on smoothly beside the ball: (n,)."""
+    away = np.hypot(xy[:, 0] - EYE_CENTER[0], xy[:, 1] - EYE_CENTER[1]) / radius
+    inside = np.sqrt(np.maximum(1.0 - np.minimum(away, 0.8) ** 2, 0.0))
+    return np.asarray(EYE_CENTER[2] + radius * np.where(away < 0.8, inside, 0.6 - (away - 0.8) / 0.75), np.float64)
+
+
+def left_lids(edge: Floats) -> Floats:
+    """Lay the loops inside the eye's window with the edge `edge`: (L, n, 3), metres."""
+    rim, turn = opening(len(edge))
+    loops = [_lid(edge[:, :2] * (1 - share) + rim * share, share) for share in _SHARES]
+    center = rim.mean(axis=0)
+    loops.append(_on_ball(center + (rim - center) * [1.02, 1.10], 0.0019))
+    loops.append(_on_ball(rim, 0.0006))
+    behind = _on_ball(center + (rim - center) * [1.03, 1.25], -0.0006)
+    loops.append(behind)
+    return np.stack(loops)
+
+
+def _on_ball(xy: Floats, above: float) -> Floats:
+    return np.column_stack([xy, ball_front(xy, EYE_RADIUS + above)])
+
+
+def _lid(xy: Floats, share: float) -> Floats:
+    points = front(xy[:, 0], xy[:, 1])
+    points = points + relief(points)
+    ball = ball_front(xy, EYE_RADIUS + 0.0021)
+    softness = 0.0035
+    gap = points[:, 2] - ball
+    points[:, 2] = ball + 0.5 * (gap + np.sqrt(gap**2 + softness**2)) - 0.3 * softness
+    return points

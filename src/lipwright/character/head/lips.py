@@ -1,0 +1,133 @@
+"""The lips and the bag of the mouth: loops from the window's edge inward, one half.
+
+From outside to inside: skin, the border of the red, the red, the contact where upper and
+lower lip meet vertex for vertex, the inner lip, and a closed bag around teeth and tongue.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lipwright.character.head.relief import relief
+from lipwright.character.head.surface import front
+
+Floats = NDArray[np.float64]
+
+CORNER = (0.0255, -0.0687)
+_SKIN_SHARES = (0.24, 0.46, 0.66, 0.84)  # of the way from the window's edge to the red
+_RED_SHARES = (0.3, 0.62)  # of the way from the red's border to the contact
+RED = len(_SKIN_SHARES)  # number of the loop on the border, counted from the first made here
+CONTACT = RED + 1 + len(_RED_SHARES)
+
+# The loops behind the contact (mm): half breadth, top, bottom, depth in the middle and at
+# the sides of the mouth (the dental arch between them is curved).
+_BAG = np.array(
+    [
+        [26.2, -66.2, -70.6, 88.2, 77.5],
+        [27.5, -61.0, -76.0, 86.3, 74.0],
+        [29.5, -52.5, -86.5, 83.5, 68.0],
+        [32.0, -50.5, -90.5, 72.0, 60.0],
+        [32.0, -51.0, -91.5, 52.0, 47.0],
+        [26.0, -55.0, -90.0, 33.0, 32.0],
+        [13.0, -63.0, -84.0, 21.0, 21.0],
+    ]
+)
+BACK = (0.0, -0.074, 0.017)
+
+
+def half_turns(count: int) -> Floats:
+    """Return each loop vertex's turn: 0 above the middle, 0.5 at the corner, 1 below."""
+    return np.linspace(0.0, 1.0, count)
+
+
+def contact(turn: Floats) -> Floats:
+    """Return the line where the closed lips meet: (n, 3), metres."""
+    x = CORNER[0] * np.sin(np.pi * turn) ** 0.92
+    share = x / CORNER[0]
+    # The upper lip's middle hangs a little; the line rises beside it and falls to the corner.
+    y = -0.0678 - 0.0007 * np.exp(-((share / 0.22) ** 2)) - 0.0009 * share**4
+    skin = _skin(np.stack([x, y], axis=1))
+    skin[:, 2] += 0.0012 - 0.0034 * share**3
+    return skin
+
+
+def red_border(turn: Floats) -> Floats:
+    """Return the border between the red and the skin: (n, 2), metres."""
+    upper = turn <= 0.5
+    x = (CORNER[0] + 0.0004) * np.sin(np.pi * turn) ** np.where(upper, 0.95, 0.9)
+    share = np.clip(x / CORNER[0], 0.0, 1.0)
+    bow = 0.0007 * np.cos(np.clip(share / 0.27, 0.0, 2.0) * np.pi)  # Cupid's
+    above = -0.0606 - bow - 0.0079 * np.clip((share - 0.2) / 0.8, 0.0, 1.0) ** 1.35
+    below = -0.0689 - 0.0098 * np.clip(1.0 - share**2.3, 0.0, 1.0) ** 0.85
+    return np.stack([x, np.where(upper, above, below)], axis=1)
+
+
+def _skin(xy: Floats) -> Floats:
+    points = front(xy[:, 0], xy[:, 1])
+    return points + relief(points)
+
+
+@dataclass(frozen=True, slots=True)
+class Lips:
+    """The loops inside the mouth's window, one half.
+
+    Parameters
+    ----------
+    loops : (L, n, 3) float64, metres
+        From the first inside the window to the last of the bag.
+    back : (3,) float64, metres
+        The bag's end.
+    """
+
+    loops: Floats
+    back: Floats
+
+
+def half_lips(edge: Floats) -> Lips:
+    """Lay the loops inside the window whose half edge is `edge`, (n, 3) metres."""
+    turn = half_turns(len(edge))
+    border, meet = red_border(turn), contact(turn)
+    loops = [_around(edge, border, turn, share) for share in _SKIN_SHARES]
+    outer = _skin(border)
+    outer[:, 2] += _edge_lift(turn)
+    loops.append(outer)
+    loops.extend(_red(outer, meet, turn, share) for share in _RED_SHARES)
+    loops.append(meet)
+    loops.extend(_bag(turn, row) for row in _BAG * 1e-3)
+    stacked = np.stack(loops)
+    stacked[:, [0, -1], 0] = 0.0
+    return Lips(stacked, np.array(BACK))
+
+
+def _edge_lift(turn: Floats) -> Floats:
+    """Return how far the red's border stands out of the skin (metres)."""
+    middle = np.abs(np.cos(np.pi * turn))
+    return np.where(turn < 0.5, 0.0022, 0.0008) * middle
+
+
+def _around(edge: Floats, border: Floats, turn: Floats, share: float) -> Floats:
+    points = _skin(edge[:, :2] * (1 - share) + border * share)
+    points[:, 2] += _edge_lift(turn) * share**2.5
+    return points
+
+
+def _red(outer: Floats, meet: Floats, turn: Floats, share: float) -> Floats:
+    """Return a loop on the red, which bulges between its border and the contact."""
+    points = outer * (1 - share) + meet * share
+    middle = np.abs(np.cos(np.pi * turn)) ** 0.8
+    bulge = np.where(turn < 0.5, 0.0026, 0.0042) * np.sin(np.pi * share) ** 0.8 * middle
+    points[:, 2] += bulge
+    return points
+
+
+def _bag(turn: Floats, row: Floats) -> Floats:
+    breadth, top, bottom, middle_z, side_z = row
+    cosine = np.cos(np.pi * turn)
+    x = breadth * np.sin(np.pi * turn) ** 0.9
+    level = CORNER[1]
+    y = level + np.where(cosine > 0, top - level, level - bottom) * cosine
+    z = middle_z + (side_z - middle_z) * (x / breadth) ** 2
+    return np.stack([x, y, z], axis=1)

@@ -1,0 +1,106 @@
+"""What a character is made of, for people and for programs.
+
+Which vocabulary was found, how each control is made from it, what is missing and what
+stands in: ``lipwright character inspect``.
+"""
+
+from __future__ import annotations
+
+import textwrap
+from typing import Any
+
+from lipwright.character.character import Character
+from lipwright.character.fitting import EXACT, MISSING, FittedControl
+from lipwright.files import format_number
+
+_WIDTH = 80
+
+
+def inspect_character(character: Character) -> dict[str, Any]:
+    """Return what a character is made of, as JSON values.
+
+    Returns
+    -------
+    dict
+        ``name``; ``vocabulary`` (or None), ``found`` and ``asked`` (its channels on the
+        rig); ``controls`` (for each its ``status``, ``weights``, ``gain``, ``missing``
+        and ``note``); ``limits``; ``meshes`` (their ``name`` and ``targets``);
+        ``unused`` (morph targets that no control moves); ``expressions``; ``jaws``.
+    """
+    rig, fitting = character.read_rig(), character.fit()
+    used = {target for fitted in fitting.controls.values() for target in fitted.weights}
+    return {
+        "name": character.name,
+        "vocabulary": fitting.vocabulary or None,
+        "found": fitting.found,
+        "asked": fitting.asked,
+        "controls": {
+            name: {
+                "status": fitted.status,
+                "weights": fitted.weights,
+                "gain": fitting.gains.get(name, 1.0),
+                "missing": list(fitted.missing),
+                "note": fitted.note,
+            }
+            for name, fitted in fitting.controls.items()
+        },
+        "limits": {name: list(limits) for name, limits in fitting.limits.items()},
+        "meshes": [{"name": mesh.name, "targets": list(mesh.targets)} for mesh in rig.meshes],
+        "unused": [target for target in rig.targets if target not in used],
+        "expressions": rig.expressions,
+        "jaws": list(rig.jaws),
+    }
+
+
+def describe_character(character: Character) -> str:
+    """Return what a character is made of, as a table of at most 80 columns."""
+    rig, fitting = character.read_rig(), character.fit()
+    lines = [f"{character.name}: {len(rig.targets)} morph targets on {_meshes(len(rig.meshes))}"]
+    if fitting.vocabulary:
+        lines.append(
+            f"vocabulary: {fitting.vocabulary}, "
+            f"{fitting.found} of the {fitting.asked} channels that its poses use"
+        )
+    else:
+        lines.append("vocabulary: none that Lipwright knows; write a mapping for it")
+    if fitting.controls:
+        width = max(map(len, fitting.controls))
+        lines.append("")
+        for name, fitted in fitting.controls.items():
+            lines += _row(name.ljust(width), fitted, fitting.gains.get(name, 1.0))
+    else:
+        lines += _wrapped("morph targets  ", ", ".join(rig.targets))
+    if rig.jaws:
+        lines += ["", f"joints like a jaw (not driven): {', '.join(rig.jaws)}"]
+    return "\n".join(lines) + "\n"
+
+
+def _meshes(count: int) -> str:
+    return "1 mesh" if count == 1 else f"{count} meshes"
+
+
+def _row(name: str, fitted: FittedControl, gain: float) -> list[str]:
+    made = " + ".join(f"{format_number(w, 3)} {t}" for t, w in fitted.weights.items())
+    made = made.replace("+ -", "- ") or "-"
+    if gain != 1:
+        made = f"{format_number(gain, 3)} × ({made})"
+    head = f"  {name}  {fitted.status.ljust(8)}  "
+    lines = _wrapped(head, made)
+    lacks = [f"lacks {', '.join(fitted.missing)}"] if fitted.missing else []
+    remarks = [*lacks, fitted.note] if fitted.note and fitted.status != EXACT else lacks
+    if fitted.status == MISSING and not remarks:
+        remarks = ["nothing of it on this model"]
+    for remark in remarks:
+        lines += _wrapped(" " * len(head), f"({remark})")
+    return lines
+
+
+def _wrapped(head: str, text: str) -> list[str]:
+    return textwrap.wrap(
+        text,
+        _WIDTH,
+        initial_indent=head,
+        subsequent_indent=" " * len(head),
+        break_long_words=False,
+        break_on_hyphens=False,
+    )

@@ -1,0 +1,149 @@
+"""Mappings: how each control is made from a rig's channels; files that animators edit.
+
+A row per control: channels and weights. A channel's value is the sum of its rows'
+weights, times each control's value and gain, kept within the channel's limits (0..1
+where none are given). A mapping says what is wanted, in names of a vocabulary or of a
+rig; :mod:`lipwright.character.fitting` finds these names on a rig.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping as MappingType
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import msgspec
+
+from lipwright.errors import FileFormatError
+from lipwright.files import convert, format_number, quote, read_document
+
+FORMAT = "lipwright/mapping"
+VERSION = 1
+Row = dict[str, float]
+
+
+@dataclass(frozen=True, slots=True)
+class Mapping:
+    """How controls are made from channels.
+
+    Parameters
+    ----------
+    name : str
+        The vocabulary's or the character's name.
+    controls : dict of str to dict of str to float
+        For each control, channels and weights; an empty row keeps a control still.
+    otherwise : dict of str to list of dict
+        For a control, rows to try where the rig has not all of the first one's channels.
+    names : dict of str to list of str
+        For a vocabulary: other spellings of a channel's name.
+    gains : dict of str to float
+        What a control is multiplied by, 1 where none is given.
+    limits : dict of str to tuple of float
+        The least and greatest value of a channel, 0 and 1 where none are given.
+    notes : dict of str to str
+        What to know about a control.
+    about : str
+        What to know about the mapping.
+    """
+
+    name: str
+    controls: dict[str, Row]
+    otherwise: dict[str, list[Row]] = field(default_factory=dict)
+    names: dict[str, list[str]] = field(default_factory=dict)
+    gains: dict[str, float] = field(default_factory=dict)
+    limits: dict[str, tuple[float, float]] = field(default_factory=dict)
+    notes: dict[str, str] = field(default_factory=dict)
+    about: str = ""
+
+    @property
+    def channels(self) -> tuple[str, ...]:
+        """The channels that it uses, each once."""
+        rows = [*self.controls.values(), *(row for rows in self.otherwise.values() for row in rows)]
+        return tuple(dict.fromkeys(name for row in rows for name in row))
+
+    def to_bytes(self) -> bytes:
+        """Return the content of the mapping's file: a row per line, in a stable order."""
+        parts = [
+            f'"format": {quote(FORMAT)}',
+            f'"version": {VERSION}',
+            f'"name": {quote(self.name)}',
+        ]
+        if self.about:
+            parts.append(f'"about": {quote(self.about)}')
+        parts.append(_block("controls", {k: _row(row) for k, row in self.controls.items()}))
+        alternatives = {
+            control: "[" + ", ".join(map(_row, rows)) + "]"
+            for control, rows in self.otherwise.items()
+        }
+        spellings = {k: "[" + ", ".join(map(quote, v)) + "]" for k, v in self.names.items()}
+        limits = {
+            k: f"[{format_number(low)}, {format_number(high)}]"
+            for k, (low, high) in self.limits.items()
+        }
+        sections = {
+            "otherwise": alternatives,
+            "names": spellings,
+            "gains": {k: format_number(gain) for k, gain in self.gains.items()},
+            "limits": limits,
+            "notes": {k: quote(note) for k, note in self.notes.items()},
+        }
+        parts += [_block(key, rows) for key, rows in sections.items() if rows]
+        return ("{\n  " + ",\n  ".join(parts) + "\n}\n").encode()
+
+
+class _Document(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    version: int
+    name: str
+    controls: dict[str, Row]
+    otherwise: dict[str, list[Row]] = {}
+    names: dict[str, list[str]] = {}
+    gains: dict[str, float] = {}
+    limits: dict[str, tuple[float, float]] = {}
+    notes: dict[str, str] = {}
+    about: str = ""
+
+
+def read_mapping(path: str | Path) -> Mapping:
+    """Return the mapping in a file.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read.
+    FileFormatError
+        If it is no mapping, or a number in it makes no sense: the message names the place.
+    """
+    document = read_document(path, format=FORMAT, version=VERSION)
+    read = convert(document, _Document, str(path))
+    for control, gain in read.gains.items():
+        if not (math.isfinite(gain) and gain >= 0):
+            raise FileFormatError(
+                f"the gain {gain}", where=f"{path}, at gains.{control}", expected="0 or more"
+            )
+    for channel, (low, high) in read.limits.items():
+        if not (math.isfinite(low) and math.isfinite(high) and low <= high):
+            raise FileFormatError(
+                f"the limits {low} to {high}",
+                where=f"{path}, at limits.{channel}",
+                expected="the lower one first",
+            )
+    return Mapping(
+        read.name,
+        read.controls,
+        read.otherwise,
+        read.names,
+        read.gains,
+        read.limits,
+        read.notes,
+        read.about,
+    )
+
+
+def _row(row: MappingType[str, float]) -> str:
+    return "{" + ", ".join(f"{quote(k)}: {format_number(v)}" for k, v in row.items()) + "}"
+
+
+def _block(key: str, rows: MappingType[str, str]) -> str:
+    lines = ",\n    ".join(f"{quote(name)}: {text}" for name, text in rows.items())
+    return f"{quote(key)}: {{\n    {lines}\n  }}" if rows else f"{quote(key)}: {{}}"

@@ -1,0 +1,187 @@
+"""A page of its own: one HTML file that plays a performance in any browser, from disk.
+
+It holds the player (the client in ``web/``, built into ``player.html`` beside this module),
+the animation, the model and the sound. It asks for nothing else: no server, no network.
+
+Lossy: frames are rounded to four decimals, sound is 16 bit (of at most 48 kHz; 24 kHz when
+longer than two minutes), the curves' keys are left out. What the animation has to report is
+in the page, to be read there.
+"""
+
+from __future__ import annotations
+
+import base64
+import io
+import json
+import struct
+import wave
+from importlib import resources
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lipwright.animation import Animation
+from lipwright.errors import CharacterError, LipwrightError
+from lipwright.performance import Performance, RiggedModel
+from lipwright.sound import Sound
+from lipwright.timeline import Tier
+
+SUFFIXES = (".html", ".htm")
+
+_PLACE = "<!-- lipwright:data -->"
+_DIGITS = 4
+_LONG = 120.0
+# The rates that every browser has to play (Web Audio API, AudioBuffer).
+_LOWEST_RATE, _HIGHEST_RATE, _LONG_RATE = 8_000, 48_000, 24_000
+_COMPRESSIONS = ("KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_texture_basisu")
+
+
+def encode(performance: Performance) -> bytes:
+    """Return the page.
+
+    Parameters
+    ----------
+    performance : Performance
+        What is played; without a sound the page keeps time by itself.
+
+    Returns
+    -------
+    bytes
+        An HTML document in UTF-8.
+
+    Raises
+    ------
+    CharacterError
+        If the model needs what no page can give: other files, or a decoder of its own.
+    LipwrightError
+        If the player has not been built.
+    """
+    before, after = _player()
+    model = performance.rig()
+    _check(model)
+    blocks = [
+        _block("performance", "application/json", _json(_content(performance, model))),
+        _block("model", "model/gltf-binary;base64", _base64(model.glb)),
+    ]
+    sound = performance.speech.sound
+    if sound is not None and len(sound.samples):
+        blocks.append(_block("sound", "audio/wav;base64", _base64(_wav(sound))))
+    return "\n".join([before, *blocks, after]).encode()
+
+
+def _player() -> tuple[str, str]:
+    """Return what stands before and after the data in the built page."""
+    page = resources.files("lipwright.export").joinpath("player.html")
+    if not page.is_file():
+        raise LipwrightError(
+            "the player of HTML pages has not been built",
+            cure="install Lipwright again, or type in its source folder: python hatch_build.py",
+        )
+    before, found, after = page.read_text("utf-8").partition(_PLACE)
+    if not found:
+        raise LipwrightError("the player of HTML pages is damaged", cure="install Lipwright again")
+    return before.rstrip(), after.lstrip()
+
+
+def _content(performance: Performance, model: RiggedModel) -> dict[str, Any]:
+    animation, speech = performance.animation, performance.speech
+    return {
+        "text": speech.text,
+        "engine": animation.engine,
+        "report": animation.report,
+        "notes": list(speech.notes),
+        "rate": animation.rate,
+        "start": animation.start,
+        "controls": animation.controls,
+        "frames": _frames(animation.values),
+        "phones": _rows(animation.phones.tier),
+        "words": _rows(animation.words),
+        "model": model.name,
+        "channels": _channels(model.channels),
+    }
+
+
+def _channels(channels: Animation) -> dict[str, Any]:
+    """Return the channels that move or are held: those that stay at zero change nothing."""
+    used = np.flatnonzero(np.abs(channels.values).max(axis=0, initial=0.0) > 0)
+    return {
+        "names": [channels.controls[index] for index in used],
+        "rate": channels.rate,
+        "start": channels.start,
+        "frames": _frames(channels.values[:, used]),
+    }
+
+
+def _frames(values: NDArray[np.float32]) -> list[list[float]]:
+    rounded: list[list[float]] = (np.round(values.astype(np.float64), _DIGITS) + 0.0).tolist()
+    return rounded
+
+
+def _rows(tier: Tier) -> list[tuple[str, float, float]]:
+    return [(each.label, each.start, each.end) for each in tier]
+
+
+def _json(value: Any) -> str:
+    """Return JSON that cannot end the block it stands in, whatever a label holds."""
+    text = json.dumps(value, separators=(",", ":"))
+    return text.replace("<", "\\u003c").replace(">", "\\u003e").replace("&", "\\u0026")
+
+
+def _base64(data: bytes) -> str:
+    return base64.b64encode(data).decode("ascii")
+
+
+def _block(name: str, kind: str, text: str) -> str:
+    return f'<script type="{kind}" id="lipwright-{name}">{text}</script>'
+
+
+def _wav(sound: Sound) -> bytes:
+    samples = _playable(sound)
+    scaled = np.clip(np.round(samples.samples * 32767.0), -32768, 32767).astype("<i2")
+    file = io.BytesIO()
+    with wave.open(file, "wb") as writer:
+        writer.setnchannels(1)
+        writer.setsampwidth(2)
+        writer.setframerate(samples.rate)
+        writer.writeframes(scaled.tobytes())
+    return file.getvalue()
+
+
+def _playable(sound: Sound) -> Sound:
+    """Return the sound at a rate that browsers play, and that keeps a long page small."""
+    highest = _LONG_RATE if sound.duration > _LONG else _HIGHEST_RATE
+    rate = min(max(sound.rate, _LOWEST_RATE), highest)
+    if rate == sound.rate:
+        return sound
+    import soxr
+
+    return Sound(soxr.resample(sound.samples, sound.rate, rate).astype(np.float32), rate)
+
+
+def _check(model: RiggedModel) -> None:
+    """Refuse a model that the page could not show."""
+    document = _gltf(model.glb)
+    needed = [name for name in document.get("extensionsRequired", ()) if name in _COMPRESSIONS]
+    if needed:
+        raise CharacterError(
+            f"its model is compressed ({', '.join(needed)})",
+            where=model.name,
+            expected="a GLB that a page can open without a decoder",
+            cure="export the model without compression",
+        )
+    for part in (*document.get("buffers", ()), *document.get("images", ())):
+        if not part.get("uri", "data:").startswith("data:"):
+            raise CharacterError(
+                f"its model needs another file, {part['uri']!r}",
+                where=model.name,
+                expected="one GLB that holds everything",
+                cure="export the model with its textures embedded",
+            )
+
+
+def _gltf(glb: bytes) -> dict[str, Any]:
+    """Return the JSON of a GLB, which whoever made the model has checked before."""
+    length = struct.unpack_from("<I", glb, 12)[0]
+    document: dict[str, Any] = json.loads(glb[20 : 20 + length])
+    return document

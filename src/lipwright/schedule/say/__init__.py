@@ -1,0 +1,121 @@
+"""Say a text: speech from a synthesiser, with the words and phones that it spoke.
+
+The synthesiser is espeak-ng (extra ``tts``), or Festival where that is installed. Both
+run as programs of their own. Phones are exact to the sample, since who speaks knows
+when; a stop's closure is counted in the stop (DESIGN section 10).
+"""
+
+from __future__ import annotations
+
+from lipwright.errors import InputError, TextError
+from lipwright.schedule.say import espeak
+from lipwright.schedule.say.assemble import assemble
+from lipwright.schedule.say.voices import (
+    Voice,
+    as_voices,
+    check_script,
+    library_name,
+    resolve,
+    unknown_voice,
+)
+from lipwright.schedule.say.words import prepare
+from lipwright.speech import Speech
+
+__all__ = ["Voice", "say", "voices"]
+
+_LONGEST_TEXT = 100_000  # characters, about two hours of speech
+_RATES = (80, 450)
+_PITCHES = (0, 99)
+
+
+def say(
+    text: str,
+    *,
+    voice: str = "en-us",
+    rate: float = 175.0,
+    pitch: float | None = None,
+    engine: str = "espeak",
+) -> Speech:
+    """Speak a text.
+
+    Parameters
+    ----------
+    text : str
+        What to say, as people write it. Markup is read out as it stands.
+    voice : str
+        A language (``"en-us"``, ``"de"``), a voice's name, either with ``+variant``
+        (``"en-us+f3"``), or ``"festival"``, ``"festival:slt"``; see :func:`voices`.
+    rate : float
+        Words per minute, 80 to 450.
+    pitch : float, optional
+        0 to 99; the voice's own (about 50) where it is not given.
+    engine : str
+        ``"espeak"`` or ``"festival"``.
+
+    Returns
+    -------
+    Speech
+        With sound, words, and phones in the set ``"ipa"`` (``"arpabet"`` from
+        Festival). The phones cover the sound from 0 to its end.
+
+    Raises
+    ------
+    TextError
+        If there is nothing to say, the voice is unknown, or it cannot read the text.
+    InputError
+        If rate, pitch or engine are out of range.
+    MissingExtraError
+        If there is no synthesiser.
+    """
+    _check_number("rate", rate, _RATES, "words per minute")
+    if pitch is not None:
+        _check_number("pitch", pitch, _PITCHES, "from low to high")
+    if len(text) > _LONGEST_TEXT:
+        raise TextError(
+            f"{len(text):,} characters",
+            where="the text",
+            expected=f"at most {_LONGEST_TEXT:,}",
+            cure="say it in parts",
+        )
+    script = prepare(text)
+    spoken, notes = _speak(script.spoken, voice, round(rate), pitch)
+    return assemble(spoken, script, text=text, notes=notes)
+
+
+def voices() -> list[Voice]:
+    """Return the voices that are installed, by engine and language."""
+    listed, _ = espeak.installed_voices()
+    return sorted(as_voices(listed), key=lambda voice: (voice.engine, voice.language))
+
+
+def _check_number(name: str, value: float, bounds: tuple[int, int], unit: str) -> None:
+    low, high = bounds
+    if not low <= value <= high:  # NaN fails as well
+        raise InputError(f"{name} {value:g}", expected=f"{low} to {high} {unit}")
+
+
+def _speak(
+    text: str, voice: str, rate: int, pitch: float | None
+) -> tuple[espeak.Spoken, tuple[str, ...]]:
+    """Speak with the voice of that name, or with its language's where the region has none."""
+
+    def speak(name: str) -> espeak.Spoken:
+        return espeak.speak(
+            text,
+            name,
+            rate=rate,
+            pitch=None if pitch is None else round(pitch),
+            accept=lambda language: check_script(text, language),
+        )
+
+    try:
+        return speak(library_name(voice)), ()
+    except espeak.UnknownVoiceError as unknown:
+        installed, variants = as_voices(unknown.voices), unknown.variants
+    file, exact = resolve(voice, installed)
+    try:
+        spoken = speak(file)
+    except espeak.UnknownVoiceError:
+        raise unknown_voice(voice, installed, variants) from None
+    notes = () if exact else (f"there is no voice {voice!r}: spoken by {spoken.language!r}",)
+    return spoken, notes

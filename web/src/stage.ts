@@ -1,0 +1,219 @@
+/** The stage: lights, camera, and the views from which to look at the model. */
+
+import {
+  ACESFilmicToneMapping,
+  Color,
+  DirectionalLight,
+  HemisphereLight,
+  Mesh,
+  MeshBasicMaterial,
+  BackSide,
+  PCFSoftShadowMap,
+  PerspectiveCamera,
+  PlaneGeometry,
+  PMREMGenerator,
+  Scene,
+  SphereGeometry,
+  Vector3,
+  WebGLRenderer,
+  type Texture,
+} from "three";
+import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import { distance, framing, type Framing } from "./framing.ts";
+import type { Model } from "./model.ts";
+
+const FIELD_OF_VIEW = 22;
+const GLIDE = 260;
+
+interface View {
+  label: string;
+  /** Degrees from the front, towards the model's left, and above the horizon. */
+  azimuth: number;
+  elevation: number;
+  part: keyof Framing;
+}
+
+export const VIEWS: Record<string, View> = {
+  front: { label: "Front", azimuth: 0, elevation: 1, part: "head" },
+  "three-quarter": { label: "¾", azimuth: 38, elevation: 3, part: "head" },
+  side: { label: "Side", azimuth: 90, elevation: 0, part: "head" },
+  mouth: { label: "Mouth", azimuth: 0, elevation: 0, part: "mouth" },
+  "mouth-side": { label: "Mouth ¾", azimuth: 52, elevation: 2, part: "mouth" },
+};
+
+export class Stage {
+  #renderer: WebGLRenderer;
+  #scene = new Scene();
+  #camera = new PerspectiveCamera(FIELD_OF_VIEW, 1, 0.01, 100);
+  #orbit: OrbitControls;
+  #framing: Framing;
+  #view: string | null = "three-quarter";
+  #glide: { from: Vector3; to: Vector3; target: [Vector3, Vector3]; since: number } | null = null;
+  #listeners: (() => void)[] = [];
+
+  constructor(canvas: HTMLCanvasElement, model: Model, used: string[]) {
+    this.#renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true });
+    this.#renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    this.#renderer.toneMapping = ACESFilmicToneMapping;
+    this.#renderer.toneMappingExposure = 1.05;
+    this.#renderer.shadowMap.enabled = true;
+    this.#renderer.shadowMap.type = PCFSoftShadowMap;
+    this.#framing = framing(model.root, model.meshes, used);
+    this.#scene.add(model.root);
+    model.root.traverse((object) => {
+      object.castShadow = object.receiveShadow = object instanceof Mesh;
+    });
+    this.#light();
+    this.#orbit = new OrbitControls(this.#camera, canvas);
+    this.#orbit.enableDamping = false;
+    this.#orbit.addEventListener("start", () => {
+      this.#glide = null;
+      this.#view = null;
+      this.#announce();
+    });
+    this.#orbit.addEventListener("change", () => this.#announce());
+  }
+
+  /** Call `listener` when a new picture is needed or the view has changed. */
+  onChange(listener: () => void): void {
+    this.#listeners.push(listener);
+  }
+
+  /** The name of the view, or null once the user has turned the model. */
+  get view(): string | null {
+    return this.#view;
+  }
+
+  setView(name: string, gliding = false): void {
+    if (!(name in VIEWS)) throw new RangeError(`no view "${name}"`);
+    this.#view = name;
+    const [place, target] = this.#placeOf(VIEWS[name]);
+    const still = matchMedia("(prefers-reduced-motion: reduce)").matches;
+    if (gliding && !still) {
+      const from = this.#camera.position.clone();
+      const pair: [Vector3, Vector3] = [this.#orbit.target.clone(), target];
+      this.#glide = { from, to: place, target: pair, since: performance.now() };
+    } else {
+      this.#glide = null;
+      this.#look(place, target);
+    }
+    this.#announce();
+  }
+
+  /** Turn the camera about what it looks at, in degrees, and move it by a factor. */
+  turn(azimuth: number, elevation: number, nearer = 1): void {
+    const offset = this.#camera.position.clone().sub(this.#orbit.target).multiplyScalar(nearer);
+    offset.applyAxisAngle(new Vector3(0, 1, 0), (azimuth * Math.PI) / 180);
+    const right = new Vector3(offset.z, 0, -offset.x).normalize();
+    const lifted = offset.clone().applyAxisAngle(right, (-elevation * Math.PI) / 180);
+    const steep = Math.abs(lifted.y) > 0.98 * lifted.length();
+    this.#view = null;
+    this.#glide = null;
+    this.#look((steep ? offset : lifted).add(this.#orbit.target), this.#orbit.target);
+    this.#announce();
+  }
+
+  resize(width: number, height: number): void {
+    this.#renderer.setSize(width, height, false);
+    this.#camera.aspect = width / height;
+    this.#camera.updateProjectionMatrix();
+    if (this.#view) this.setView(this.#view);
+    this.#announce();
+  }
+
+  /** Draw; returns whether the camera is still on its way. */
+  draw(): boolean {
+    if (this.#glide) {
+      const { from, to, target, since } = this.#glide;
+      const share = Math.min((performance.now() - since) / GLIDE, 1);
+      const eased = 1 - (1 - share) ** 3;
+      this.#look(from.clone().lerp(to, eased), target[0].clone().lerp(target[1], eased));
+      if (share === 1) this.#glide = null;
+    }
+    this.#renderer.render(this.#scene, this.#camera);
+    return this.#glide !== null;
+  }
+
+  #placeOf(view: View): [Vector3, Vector3] {
+    const frame = this.#framing[view.part];
+    const far = distance(this.#framing.head, FIELD_OF_VIEW, this.#camera.aspect);
+    const near = distance(frame, FIELD_OF_VIEW, this.#camera.aspect);
+    const azimuth = (view.azimuth * Math.PI) / 180;
+    const elevation = (view.elevation * Math.PI) / 180;
+    const direction = new Vector3(
+      Math.sin(azimuth) * Math.cos(elevation),
+      Math.sin(elevation),
+      Math.cos(azimuth) * Math.cos(elevation),
+    );
+    const depth = view.part === "head" ? frame.halfWidth : 0;
+    this.#camera.near = near / 50;
+    this.#camera.far = far * 20;
+    this.#camera.updateProjectionMatrix();
+    return [direction.multiplyScalar(near * 1.06 + depth).add(frame.centre), frame.centre.clone()];
+  }
+
+  #look(place: Vector3, target: Vector3): void {
+    this.#camera.position.copy(place);
+    this.#orbit.target.copy(target);
+    this.#camera.lookAt(target);
+    this.#orbit.update();
+  }
+
+  #light(): void {
+    const head = this.#framing.head;
+    this.#scene.environment = softboxes(this.#renderer);
+    this.#scene.environmentIntensity = 0.55;
+    this.#scene.add(new HemisphereLight(0xe6edf7, 0x6b5648, 0.55));
+    const key = this.#lamp(0xfff1e2, 2.1, [0.75, 0.85, 1.5]);
+    this.#lamp(0xcfe0ff, 1.5, [-1.3, 0.7, -1.2]);
+    const reach = 1.25 * Math.max(head.halfHeight, head.halfWidth);
+    const { camera } = key.shadow;
+    camera.left = camera.bottom = -reach;
+    camera.right = camera.top = reach;
+    camera.near = reach;
+    camera.far = 7 * reach;
+    key.castShadow = true;
+    key.shadow.mapSize.set(2048, 2048);
+    key.shadow.radius = 5;
+    key.shadow.normalBias = reach * 0.008;
+    key.shadow.bias = -0.0006;
+  }
+
+  #lamp(colour: number, strength: number, from: [number, number, number]): DirectionalLight {
+    const { centre, halfHeight, halfWidth } = this.#framing.head;
+    const lamp = new DirectionalLight(new Color(colour), strength);
+    const way = new Vector3(...from).setLength(4 * Math.max(halfHeight, halfWidth));
+    lamp.position.copy(centre).add(way);
+    lamp.target.position.copy(centre);
+    this.#scene.add(lamp, lamp.target);
+    return lamp;
+  }
+
+  #announce(): void {
+    for (const listener of this.#listeners) listener();
+  }
+}
+
+/** What surrounds the model, seen in its eyes and wet lips: a grey room with two soft lights. */
+function softboxes(renderer: WebGLRenderer): Texture {
+  const room = new Scene();
+  const paint = (grey: number) => new MeshBasicMaterial({ color: new Color().setScalar(grey) });
+  const wall = paint(0.35);
+  wall.side = BackSide;
+  room.add(new Mesh(new SphereGeometry(10, 24, 12), wall));
+  const boxes: [number, number, [number, number, number]][] = [
+    [14, 3, [4, 5, 6]],
+    [5, 3, [-6, 2, 5]],
+    [4, 6, [0, 9, 0]],
+  ];
+  for (const [grey, side, place] of boxes) {
+    const box = new Mesh(new PlaneGeometry(side, side), paint(grey));
+    box.position.set(...place);
+    box.lookAt(0, 0, 0);
+    room.add(box);
+  }
+  const generator = new PMREMGenerator(renderer);
+  const { texture } = generator.fromScene(room, 0.02);
+  generator.dispose();
+  return texture;
+}
