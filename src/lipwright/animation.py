@@ -147,9 +147,9 @@ class Animation:
             f'"start": {_number(self.start)}',
             f'"controls": {json.dumps(self.controls, ensure_ascii=False)}',
             f'"phone_set": {quote(self.phones.phone_set)}',
-            f'"phones": {_lines(map(_interval, self.phones))}',
-            f'"words": {_lines(map(_interval, self.words))}',
-            f'"report": {json.dumps(self.report, ensure_ascii=False)}',
+            f'"phones": {_lines(map(interval_row, self.phones))}',
+            f'"words": {_lines(map(interval_row, self.words))}',
+            f'"report": {json.dumps(self.report, ensure_ascii=False, allow_nan=False)}',
         ]
         if self.keys:
             rows = (f"{quote(name)}: {_pairs(keys)}" for name, keys in self.keys.items())
@@ -176,10 +176,12 @@ class Animation:
                     where=f"{where}, frame {index}",
                     expected=f"{width}, one for each control",
                 )
+        with np.errstate(over="ignore"):  # what float32 cannot hold is refused as not finite
+            frames = np.array(read.frames, dtype=np.float32).reshape(len(read.frames), width)
         try:
             return cls(
                 tuple(read.controls),
-                np.array(read.frames, dtype=np.float32).reshape(-1, width),
+                frames,
                 read.rate,
                 read.start,
                 {name: Keys.of(pairs) for name, pairs in read.keys.items()},
@@ -240,7 +242,8 @@ def _short(text: str) -> str:
     return text if text == "-0.0" else text.removesuffix(".0")
 
 
-def _interval(interval: Interval) -> str:
+def interval_row(interval: Interval) -> str:
+    """Return the ``[label, start, end]`` row of an interval, with its confidence where known."""
     numbers = [interval.start, interval.end]
     if interval.confidence is not None:
         numbers.append(interval.confidence)

@@ -71,27 +71,28 @@ def consonant(jaw: float, rounding: float, spreading: float, **levels: float) ->
 
 SOUNDS: dict[str, Sound] = {
     # Vowels. 'open' falls with vowel height; 'W' is rounding, 'wide' is spreading.
-    "ah": vowel(open=0.46, wide=0.16),
+    "ah": vowel(open=0.46, wide=0.18),
     "aa": vowel(open=0.66, wide=0.06),
-    "ao": vowel(open=0.54, W=0.38),
-    "eh": vowel(open=0.42, wide=0.34),
+    "ao": vowel(open=0.50, W=0.40),
+    "eh": vowel(open=0.50, wide=0.36),
     "er": vowel(open=0.26, W=0.16, ShCh=0.34, tBack=0.25),
-    "ih": vowel(open=0.24, wide=0.55),
+    "ih": vowel(open=0.32, wide=0.55),
     "w": vowel(open=0.12, W=0.88, tBack=0.30),
     # Diphthongs: from … to …
-    "ow": diphthong({"open": 0.46, "W": 0.42}, {"open": 0.22, "W": 0.80}),
+    "ow": diphthong({"open": 0.46, "W": 0.42}, {"open": 0.20, "W": 0.80}),
     "aw": diphthong({"open": 0.66, "wide": 0.12}, {"open": 0.26, "W": 0.66}),
-    "oy": diphthong({"open": 0.42, "W": 0.68}, {"open": 0.26, "wide": 0.42}),
-    "ay": diphthong({"open": 0.68, "wide": 0.04}, {"open": 0.28, "wide": 0.44}),
+    "oy": diphthong({"open": 0.42, "W": 0.68}, {"open": 0.30, "wide": 0.42}),
+    "ay": diphthong({"open": 0.68, "wide": 0.04}, {"open": 0.36, "wide": 0.46}),
     # Consonants: jaw, rounding and spreading that they let through, then their own shape.
-    "h": consonant(0.75, 0.80, 0.80, open=0.06),
-    "r": consonant(0.35, 0.60, 0.20, open=0.12, W=0.30, ShCh=0.26, tBack=0.20),
-    "l": consonant(0.45, 0.45, 0.45, open=0.14, tRoof=0.80),
-    "z": consonant(0.10, 0.40, 0.40, open=0.07, wide=0.22, tRoof=0.35),
-    "sh": consonant(0.10, 0.50, 0.10, open=0.09, W=0.20, ShCh=0.82, tRoof=0.30),
-    "th": consonant(0.25, 0.35, 0.40, open=0.15, wide=0.06, tTeeth=0.85),
-    "d": consonant(0.28, 0.50, 0.50, open=0.09, wide=0.08, tRoof=0.82),
-    "kg": consonant(0.42, 0.55, 0.55, open=0.12, wide=0.05, tBack=0.78),
+    # In s and z the teeth meet and the lips part; behind d, l and k the jaw stays loose.
+    "h": consonant(0.70, 0.80, 0.80, open=0.08),
+    "r": consonant(0.30, 0.60, 0.20, open=0.14, W=0.32, ShCh=0.26, tBack=0.20),
+    "l": consonant(0.45, 0.45, 0.45, open=0.24, wide=0.06, tRoof=0.80),
+    "z": consonant(0.15, 0.40, 0.40, open=0.16, wide=0.44, tRoof=0.35),
+    "sh": consonant(0.15, 0.50, 0.10, open=0.12, W=0.20, ShCh=0.82, tRoof=0.30),
+    "th": consonant(0.20, 0.35, 0.40, open=0.16, wide=0.06, tTeeth=0.85),
+    "d": consonant(0.30, 0.50, 0.50, open=0.22, wide=0.18, tRoof=0.82),
+    "kg": consonant(0.45, 0.55, 0.55, open=0.28, wide=0.14, tBack=0.78),
     # Closures: what must be seen. The jaw may ride along, the lips may not.
     "f": Sound(
         "closure",

@@ -22,11 +22,15 @@ export function framing(model: Object3D, meshes: Mesh[], used: string[]): Framin
   const box = new Box3().setFromObject(model);
   const size = box.getSize(new Vector3());
   const centre = box.getCenter(new Vector3());
-  const whole = { centre, halfWidth: size.x / 2, halfHeight: size.y / 2 };
+  // The face is what matters: a little of the shoulders is left out.
+  centre.y += 0.05 * size.y;
+  const whole = { centre, halfWidth: 0.45 * size.x, halfHeight: 0.47 * size.y };
   const lips = used.filter((name) => LIPS.test(name));
   const moved = spread(meshes, lips.length ? lips : used);
   if (!moved) return { head: whole, mouth: whole };
   const half = Math.max(moved.deviation.x, moved.deviation.y, 0.01 * size.y);
+  // The lips are in front of most of what they take along.
+  moved.mean.z += moved.deviation.z;
   const mouth = { centre: moved.mean, halfWidth: 2.6 * half, halfHeight: 1.9 * half };
   if (size.y < 30 * half) return { head: whole, mouth };
   const head = moved.mean.clone().add(new Vector3(0, 2 * half, 0));

@@ -11,10 +11,18 @@ export class Legend {
   #controls: Curves;
   #shown: Shown;
   #timeline: Timeline;
+  #all: HTMLElement;
   #rows: { button: HTMLButtonElement; value: HTMLElement; bar: HTMLElement; line: SVGElement }[] =
     [];
 
-  constructor(list: HTMLElement, controls: Curves, shown: Shown, timeline: Timeline) {
+  constructor(
+    list: HTMLElement,
+    all: HTMLElement,
+    controls: Curves,
+    shown: Shown,
+    timeline: Timeline,
+  ) {
+    this.#all = all;
     this.#controls = controls;
     this.#shown = shown;
     this.#timeline = timeline;
@@ -97,6 +105,7 @@ export class Legend {
     this.#rows.forEach(({ button }, index) => {
       button.ariaPressed = String(!this.#shown.hidden.has(index));
     });
+    this.#all.textContent = this.#shown.hidden.size ? "Show all" : "Hide all";
     this.#timeline.refresh();
   }
 }

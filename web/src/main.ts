@@ -34,7 +34,7 @@ const timeline = new Timeline(
   sound && peaksOf(sound),
   shown,
 );
-const legend = new Legend(element("legend"), performed.controls, shown, timeline);
+const legend = new Legend(element("legend"), element("all"), performed.controls, shown, timeline);
 let stage: Stage | null = null;
 let model: Model | null = null;
 let idle = true;

@@ -16,7 +16,7 @@ export interface Ink {
   text: string;
   muted: string;
   line: string;
-  panel: string;
+  page: string;
   wave: string;
   accent: string;
   soft: string;
@@ -160,15 +160,17 @@ function cell(
   const left = scale.x(span.start);
   const wide = scale.x(span.end) - left;
   if (fill) {
-    context.fillStyle = fill;
-    context.fillRect(left, row.top + 1, wide, row.height - 1);
+    for (const colour of [ink.page, fill]) {
+      context.fillStyle = colour;
+      context.fillRect(left, row.top + 1, wide, row.height - 1);
+    }
   }
   line(context, left, row.top, row.top + row.height, ink.line);
   line(context, left + wide, row.top, row.top + row.height, ink.line);
   context.font = `${fill ? 600 : 400} 11.5px ${ink.font}`;
   context.textBaseline = "middle";
   context.textAlign = "center";
-  if (context.measureText(span.label).width > wide - 2) return;
+  if (context.measureText(span.label).width > wide - 6) return;
   context.globalAlpha = span.label === "sil" ? 0.5 : 1;
   context.fillStyle = text;
   const from = Math.max(left, 0);

@@ -1,31 +1,27 @@
 /**
- * Nine colours that stay apart in protanopia, deuteranopia and tritanopia, and stand out from the
- * page (contrast 3:1 or more); further curves repeat them with dashes.
+ * Seven colours that stay apart in protanopia, deuteranopia and tritanopia, and stand out from the
+ * page (contrast 3:1 or more, both held by a test); further curves repeat them with dashes.
  */
 
-const LIGHT = [
-  "#9e410e",
-  "#427df8",
-  "#7a7418",
-  "#c25e9c",
-  "#0349c1",
-  "#602500",
-  "#5d476c",
-  "#05078f",
-  "#380a40",
+export const ON_LIGHT = [
+  "#908712",
+  "#1d45c1",
+  "#4889fc",
+  "#273e06",
+  "#5c0262",
+  "#e154a8",
+  "#91485d",
 ];
-const DARK = [
-  "#f9691c",
-  "#33ccef",
-  "#f7f56a",
-  "#b77f9c",
-  "#708cfc",
-  "#d1c38f",
-  "#b5fbfb",
-  "#b64014",
-  "#695ca1",
+export const ON_DARK = [
+  "#fbe43c",
+  "#1973ea",
+  "#94f9fd",
+  "#14c877",
+  "#bea7f5",
+  "#b52b80",
+  "#907c0f",
 ];
-const DASHES = [[], [6, 3], [2, 2], [8, 3, 2, 3]];
+const DASHES = [[], [6, 3], [2, 2.5], [9, 3, 2, 3]];
 
 export interface Stroke {
   colour: string;
@@ -33,7 +29,7 @@ export interface Stroke {
 }
 
 export function stroke(index: number, dark: boolean): Stroke {
-  const colours = dark ? DARK : LIGHT;
+  const colours = dark ? ON_DARK : ON_LIGHT;
   return {
     colour: colours[index % colours.length],
     dash: DASHES[Math.floor(index / colours.length) % DASHES.length],

@@ -1,22 +1,16 @@
 /** The stage: lights, camera, and the views from which to look at the model. */
 
 import {
-  ACESFilmicToneMapping,
+  NeutralToneMapping,
   Color,
   DirectionalLight,
   HemisphereLight,
   Mesh,
-  MeshBasicMaterial,
-  BackSide,
-  PCFSoftShadowMap,
+  PCFShadowMap,
   PerspectiveCamera,
-  PlaneGeometry,
-  PMREMGenerator,
   Scene,
-  SphereGeometry,
   Vector3,
   WebGLRenderer,
-  type Texture,
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { distance, framing, type Framing } from "./framing.ts";
@@ -54,10 +48,10 @@ export class Stage {
   constructor(canvas: HTMLCanvasElement, model: Model, used: string[]) {
     this.#renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true });
     this.#renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
-    this.#renderer.toneMapping = ACESFilmicToneMapping;
-    this.#renderer.toneMappingExposure = 1.05;
+    this.#renderer.toneMapping = NeutralToneMapping;
+    this.#renderer.toneMappingExposure = 1;
     this.#renderer.shadowMap.enabled = true;
-    this.#renderer.shadowMap.type = PCFSoftShadowMap;
+    this.#renderer.shadowMap.type = PCFShadowMap;
     this.#framing = framing(model.root, model.meshes, used);
     this.#scene.add(model.root);
     model.root.traverse((object) => {
@@ -145,11 +139,11 @@ export class Stage {
       Math.sin(elevation),
       Math.cos(azimuth) * Math.cos(elevation),
     );
-    const depth = view.part === "head" ? frame.halfWidth : 0;
+    const depth = view.part === "head" ? 0.6 * frame.halfWidth : 0;
     this.#camera.near = near / 50;
     this.#camera.far = far * 20;
     this.#camera.updateProjectionMatrix();
-    return [direction.multiplyScalar(near * 1.06 + depth).add(frame.centre), frame.centre.clone()];
+    return [direction.multiplyScalar(near + depth).add(frame.centre), frame.centre.clone()];
   }
 
   #look(place: Vector3, target: Vector3): void {
@@ -160,23 +154,27 @@ export class Stage {
   }
 
   #light(): void {
-    const head = this.#framing.head;
-    this.#scene.environment = softboxes(this.#renderer);
-    this.#scene.environmentIntensity = 0.55;
-    this.#scene.add(new HemisphereLight(0xe6edf7, 0x6b5648, 0.55));
-    const key = this.#lamp(0xfff1e2, 2.1, [0.75, 0.85, 1.5]);
-    this.#lamp(0xcfe0ff, 1.5, [-1.3, 0.7, -1.2]);
-    const reach = 1.25 * Math.max(head.halfHeight, head.halfWidth);
-    const { camera } = key.shadow;
+    this.#scene.add(new HemisphereLight(0xe3e9f2, 0x7a6458, 0.95));
+    this.#lamp(0xf2f4ff, 0.35, [-1.2, 0.1, 1]);
+    const key = this.#lamp(0xfff0e0, 1.9, [0.8, 0.9, 1.4]);
+    const rim = this.#lamp(0xdbe7ff, 1.2, [-1.1, 0.7, -1.3]);
+    this.#castShadow(key, 2048);
+    this.#castShadow(rim, 1024);
+  }
+
+  #castShadow(lamp: DirectionalLight, size: number): void {
+    const { halfHeight, halfWidth } = this.#framing.head;
+    const reach = 1.25 * Math.max(halfHeight, halfWidth);
+    const { camera } = lamp.shadow;
     camera.left = camera.bottom = -reach;
     camera.right = camera.top = reach;
     camera.near = reach;
     camera.far = 7 * reach;
-    key.castShadow = true;
-    key.shadow.mapSize.set(2048, 2048);
-    key.shadow.radius = 5;
-    key.shadow.normalBias = reach * 0.008;
-    key.shadow.bias = -0.0006;
+    lamp.castShadow = true;
+    lamp.shadow.mapSize.set(size, size);
+    lamp.shadow.radius = 4;
+    lamp.shadow.normalBias = reach * 0.008;
+    lamp.shadow.bias = -0.0006;
   }
 
   #lamp(colour: number, strength: number, from: [number, number, number]): DirectionalLight {
@@ -192,28 +190,4 @@ export class Stage {
   #announce(): void {
     for (const listener of this.#listeners) listener();
   }
-}
-
-/** What surrounds the model, seen in its eyes and wet lips: a grey room with two soft lights. */
-function softboxes(renderer: WebGLRenderer): Texture {
-  const room = new Scene();
-  const paint = (grey: number) => new MeshBasicMaterial({ color: new Color().setScalar(grey) });
-  const wall = paint(0.35);
-  wall.side = BackSide;
-  room.add(new Mesh(new SphereGeometry(10, 24, 12), wall));
-  const boxes: [number, number, [number, number, number]][] = [
-    [14, 3, [4, 5, 6]],
-    [5, 3, [-6, 2, 5]],
-    [4, 6, [0, 9, 0]],
-  ];
-  for (const [grey, side, place] of boxes) {
-    const box = new Mesh(new PlaneGeometry(side, side), paint(grey));
-    box.position.set(...place);
-    box.lookAt(0, 0, 0);
-    room.add(box);
-  }
-  const generator = new PMREMGenerator(renderer);
-  const { texture } = generator.fromScene(room, 0.02);
-  generator.dispose();
-  return texture;
 }

@@ -231,7 +231,7 @@ function readInk(canvas: HTMLCanvasElement): Ink {
     text: ink("text"),
     muted: ink("muted"),
     line: ink("line"),
-    panel: ink("panel"),
+    page: ink("page"),
     wave: ink("wave"),
     accent: ink("accent"),
     soft: ink("accent-soft"),

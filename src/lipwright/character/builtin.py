@@ -18,6 +18,7 @@ from lipwright.character.mesh import Material, Part
 from lipwright.gltf import TRIANGLES, VERTICES, Gltf, GltfWriter
 
 Floats = NDArray[np.float32]
+Doubles = NDArray[np.float64]
 
 _STILL = 1e-6
 """A vertex that moves by less is still, in metres."""
@@ -77,11 +78,10 @@ def _material(material: Material) -> dict[str, Any]:
 def _mesh(
     writer: GltfWriter, part: Part, material: int, keep: Collection[str] | None
 ) -> dict[str, Any]:
-    shading = _Shading.of(part.triangles, len(part.positions))
-    normals = shading.normals(part.positions)
+    shading = _Shading.of(part.positions, part.triangles)
     attributes = {
         "POSITION": writer.accessor(part.positions, limits=True, target=VERTICES),
-        "NORMAL": writer.accessor(normals, target=VERTICES),
+        "NORMAL": writer.accessor(shading.normals, target=VERTICES),
     }
     if part.colors is not None:
         attributes["COLOR_0"] = writer.accessor(part.colors.astype(np.float32), target=VERTICES)
@@ -92,60 +92,75 @@ def _mesh(
         "indices": writer.accessor(triangles, target=TRIANGLES),
         "material": material,
     }
-    mesh = {"name": part.name, "primitives": [primitive]}
+    mesh: dict[str, Any] = {"name": part.name, "primitives": [primitive]}
     names = [name for name in part.morphs if keep is None or name in keep]
     if names:
-        primitive["targets"] = [
-            _target(writer, part.positions, part.morphs[name], normals, shading) for name in names
-        ]
+        primitive["targets"] = [_target(writer, part.morphs[name], shading) for name in names]
         mesh["weights"] = [0] * len(names)
         mesh["extras"] = {"targetNames": names}
     return mesh
 
 
-def _target(
-    writer: GltfWriter, positions: Floats, moves: Floats, normals: Floats, shading: _Shading
-) -> dict[str, int]:
-    moves = np.where(np.abs(moves).max(axis=1, keepdims=True) < _STILL, np.float32(0), moves)
-    turns = shading.normals(positions + moves) - normals
-    turns[np.abs(turns).max(axis=1) < _UNTURNED] = 0
+def _target(writer: GltfWriter, moves: Floats, shading: _Shading) -> dict[str, int]:
+    moving = _length(moves) >= _STILL
+    moves = np.where(moving[:, None], moves, np.float32(0))
     return {
-        "POSITION": writer.sparse(moves.astype(np.float32), limits=True),
-        "NORMAL": writer.sparse(turns),
+        "POSITION": writer.sparse(moves, limits=True, target=VERTICES),
+        "NORMAL": writer.sparse(shading.turns(moves, moving), target=VERTICES),
     }
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Shading:
-    """Which triangles meet at each vertex, sorted once for all morph targets."""
+    """Smooth normals of a part at rest, and what is needed to bring them up to date."""
 
+    positions: Floats
     triangles: NDArray[np.uint32]
-    meeting: NDArray[np.intp]
-    starts: NDArray[np.intp]
-    used: NDArray[np.intp]
-    count: int
+    faces: Doubles
+    sums: Doubles
+    normals: Floats
 
     @classmethod
-    def of(cls, triangles: NDArray[np.uint32], count: int) -> _Shading:
-        corners = triangles.ravel()
-        order = np.argsort(corners, kind="stable")
-        used, starts = np.unique(corners[order], return_index=True)
-        return cls(triangles, order // 3, starts, used, count)
+    def of(cls, positions: Floats, triangles: NDArray[np.uint32]) -> _Shading:
+        faces = _faces(positions, triangles)
+        sums = _gather(triangles, faces, len(positions))
+        return cls(positions, triangles, faces, sums, _unit(sums))
 
-    def normals(self, positions: Floats) -> Floats:
-        """Return smooth normals, (V, 3) of length 1."""
-        a, b, c = (positions[self.triangles[:, corner]] for corner in range(3))
-        # The cross product's length is twice the area: larger triangles count for more.
-        faces = _cross(b - a, c - a)
-        sums = np.zeros((self.count, 3))
-        if len(self.used):
-            sums[self.used] = np.add.reduceat(faces[self.meeting], self.starts, axis=0)
-        lengths = np.linalg.norm(sums, axis=1)
-        flat = lengths < 1e-20
-        sums[flat], lengths[flat] = (0.0, 0.0, 1.0), 1.0
-        return (sums / lengths[:, None]).astype(np.float32)
+    def turns(self, moves: Floats, moving: NDArray[np.bool_]) -> Floats:
+        """Return how the normals change when vertices move, (V, 3)."""
+        a, b, c = moving[self.triangles].T
+        touched = a | b | c
+        triangles = self.triangles[touched]
+        change = _faces(self.positions + moves, triangles) - self.faces[touched]
+        sums = self.sums + _gather(triangles, change, len(moves))
+        turns = _unit(sums) - self.normals
+        turns[_length(turns) < _UNTURNED] = 0
+        return turns
 
 
-def _cross(a: Floats, b: Floats) -> NDArray[np.float64]:
-    (ax, ay, az), (bx, by, bz) = a.T.astype(np.float64), b.T.astype(np.float64)
+def _faces(positions: Floats, triangles: NDArray[np.uint32]) -> Doubles:
+    """Return the normal of each triangle, (F, 3), as long as twice its area."""
+    a, b, c = (positions.astype(np.float64)[corner] for corner in triangles.T)
+    (ax, ay, az), (bx, by, bz) = (b - a).T, (c - a).T
     return np.stack((ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx), axis=1)
+
+
+def _gather(triangles: NDArray[np.uint32], faces: Doubles, count: int) -> Doubles:
+    """Sum over each vertex what its triangles bring: larger ones count for more."""
+    corners = triangles.T.ravel()
+    columns = [np.bincount(corners, np.tile(face, 3), count) for face in faces.T]
+    return np.stack(columns, axis=1)
+
+
+def _unit(vectors: Doubles) -> Floats:
+    lengths = _length(vectors)
+    flat = lengths < 1e-20
+    unit = vectors / np.where(flat, 1.0, lengths)[:, None]
+    unit[flat] = (0.0, 0.0, 1.0)
+    return unit.astype(np.float32)
+
+
+def _length(vectors: NDArray[np.floating[Any]]) -> NDArray[np.floating[Any]]:
+    x, y, z = vectors.T
+    length: NDArray[np.floating[Any]] = np.sqrt(x * x + y * y + z * z)
+    return length

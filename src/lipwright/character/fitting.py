@@ -195,13 +195,10 @@ def _find(rig: Rig, mapping: Mapping) -> dict[str, Row]:
 
 
 def _fit_control(control: str, mapping: Mapping, names: dict[str, Row]) -> FittedControl:
-    rows = [mapping.controls[control], *mapping.otherwise.get(control, ())]
+    wanted = mapping.controls[control]
     note = mapping.notes.get(control, "")
-    missing = tuple(channel for channel in rows[0] if channel not in names)
-    if not rows[0]:
-        return FittedControl(control, {}, MISSING, note=note)
-    whole = next((row for row in rows if row and all(channel in names for channel in row)), None)
-    row = whole or max(rows, key=lambda row: _share(row, names))
+    missing = tuple(channel for channel in wanted if channel not in names)
+    row = _best_row([wanted, *mapping.otherwise.get(control, ())], names)
     weights = _sum(
         {target: weight * row[channel] for target, weight in names[channel].items()}
         for channel in row
@@ -209,16 +206,26 @@ def _fit_control(control: str, mapping: Mapping, names: dict[str, Row]) -> Fitte
     )
     if not weights:
         status = MISSING
-    elif row is rows[0]:
+    elif row is wanted:
         status = PARTLY if missing else EXACT
     else:
         status = STAND_IN
     return FittedControl(control, weights, status, missing, note)
 
 
+def _best_row(rows: Sequence[Row], names: dict[str, Row]) -> Row:
+    """Take the first row if the rig has half of it; else the first that it has whole."""
+    if _share(rows[0], names) >= 0.5:
+        return rows[0]
+    whole = (row for row in rows if _share(row, names) == 1)
+    return next(whole, None) or max(rows, key=lambda row: _share(row, names))
+
+
 def _share(row: Row, names: dict[str, Row]) -> float:
+    """Return how much of a row a rig has, by weight, 0..1."""
     total = sum(map(abs, row.values()))
-    return sum(abs(v) for channel, v in row.items() if channel in names) / total if total else 0.0
+    lacking = sum(abs(weight) for channel, weight in row.items() if channel not in names)
+    return (total - lacking) / total if total else 0.0
 
 
 def _sum(rows: Iterable[Row]) -> Row:

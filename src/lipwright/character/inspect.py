@@ -6,6 +6,7 @@ stands in: ``lipwright character inspect``.
 
 from __future__ import annotations
 
+import re
 import textwrap
 from typing import Any
 
@@ -80,8 +81,7 @@ def _meshes(count: int) -> str:
 
 
 def _row(name: str, fitted: FittedControl, gain: float) -> list[str]:
-    made = " + ".join(f"{format_number(w, 3)} {t}" for t, w in fitted.weights.items())
-    made = made.replace("+ -", "- ") or "-"
+    made = _formula(fitted.weights) or "-"
     if gain != 1:
         made = f"{format_number(gain, 3)} × ({made})"
     head = f"  {name}  {fitted.status.ljust(8)}  "
@@ -93,6 +93,22 @@ def _row(name: str, fitted: FittedControl, gain: float) -> list[str]:
     for remark in remarks:
         lines += _wrapped(" " * len(head), f"({remark})")
     return lines
+
+
+def _formula(weights: dict[str, float]) -> str:
+    """Write weights as a sum; two sides of equal weight as one term."""
+    terms = []
+    left = dict(weights)
+    for target, weight in weights.items():
+        if target not in left:
+            continue
+        del left[target]
+        other = re.sub("Left", "Right", re.sub(r"(?<=_)L\b", "R", target))
+        if other != target and left.get(other) == weight:
+            del left[other]
+            target = target.replace("Left", "Left/Right") if "Left" in target else f"{target}/R"
+        terms.append(f"{format_number(weight, 3)} {target}")
+    return " + ".join(terms).replace("+ -", "- ")
 
 
 def _wrapped(head: str, text: str) -> list[str]:

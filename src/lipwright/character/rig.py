@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from lipwright.errors import CharacterError
-from lipwright.gltf import Gltf, MorphMesh, morph_meshes
+from lipwright.gltf import Gltf, MorphMesh, morph_meshes, structure
 
 Weights = dict[str, float]
 
@@ -47,11 +47,15 @@ def read_rig(model: Gltf) -> Rig:
     ------
     CharacterError
         If nothing in it can move: no meshes, or none with morph targets.
+    FileFormatError
+        If the structure of the file is broken.
     """
     if not model.items("meshes"):
         raise CharacterError("holds no mesh", where=model.where, expected="a head to animate")
     meshes = morph_meshes(model)
-    jaws = _jaws(model)
+    with structure(model.where):
+        jaws = _jaws(model)
+        expressions = _expressions(model, meshes)
     shown = tuple(mesh for mesh in meshes if mesh.nodes)
     if not shown:
         joint = f" (its joint {jaws[0]!r} is not driven yet)" if jaws else ""
@@ -61,7 +65,7 @@ def read_rig(model: Gltf) -> Rig:
             expected="a head with mouth shapes, such as ARKit's or visemes",
             cure="export it with its blend shapes (shape keys)",
         )
-    return Rig(shown, _expressions(model, meshes), jaws)
+    return Rig(shown, expressions, jaws)
 
 
 def _jaws(model: Gltf) -> tuple[str, ...]:

@@ -7,8 +7,9 @@ It draws nothing and checks only what it reads.
 """
 
 from lipwright.gltf.accessors import read_accessor
-from lipwright.gltf.container import Gltf, parse_glb, parse_gltf, read_gltf
+from lipwright.gltf.container import Gltf, parse_glb, parse_gltf, read_gltf, structure
 from lipwright.gltf.morphs import MorphMesh, morph_meshes
+from lipwright.gltf.pruning import keep_morphs
 from lipwright.gltf.writer import TRIANGLES, VERTICES, GltfWriter
 
 __all__ = [
@@ -17,9 +18,11 @@ __all__ = [
     "Gltf",
     "GltfWriter",
     "MorphMesh",
+    "keep_morphs",
     "morph_meshes",
     "parse_glb",
     "parse_gltf",
     "read_accessor",
     "read_gltf",
+    "structure",
 ]

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from lipwright.errors import FileFormatError
-from lipwright.gltf.container import Gltf
+from lipwright.gltf.container import Gltf, structure
 
 COMPONENTS: dict[int, np.dtype[Any]] = {
     5120: np.dtype("<i1"),
@@ -50,7 +50,7 @@ def read_accessor(model: Gltf, index: int) -> NDArray[Any]:
     if not isinstance(index, int) or not 0 <= index < len(accessors):
         raise FileFormatError("does not exist", where=where)
     accessor = accessors[index]
-    try:
+    with structure(where):
         dtype, width = COMPONENTS[accessor["componentType"]], WIDTHS[accessor["type"]]
         count = int(accessor["count"])
         if "bufferView" in accessor:
@@ -62,8 +62,6 @@ def read_accessor(model: Gltf, index: int) -> NDArray[Any]:
             kind = COMPONENTS[sparse["indices"]["componentType"]]
             at = _view(model, sparse["indices"], kind, sparse["count"], 1, where)[:, 0]
             values[at] = _view(model, sparse["values"], dtype, sparse["count"], width, where)
-    except (KeyError, TypeError, IndexError, ValueError) as error:
-        raise FileFormatError(f"is broken ({error})", where=where) from None
     if accessor.get("normalized") and dtype.kind in "iu":
         values = np.maximum(values / np.float32(np.iinfo(dtype).max), -1).astype(np.float32)
     return values[:, 0] if width == 1 else values

@@ -12,12 +12,14 @@ import base64
 import binascii
 import json
 import struct
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 from urllib.parse import unquote, unquote_to_bytes
 
-from lipwright.errors import FileFormatError, InputError
+from lipwright.errors import FileFormatError, InputError, LipwrightError
 from lipwright.files import parse_json, read_bytes
 
 MAGIC = b"glTF"
@@ -80,6 +82,21 @@ class Gltf:
         if length >= 1 << 32:
             raise InputError(f"{length} bytes", where=self.where, expected="a GLB under 4 GB")
         return struct.pack("<4sII", MAGIC, 2, length) + chunks + self.rest
+
+
+@contextmanager
+def structure(where: str) -> Iterator[None]:
+    """Turn what goes wrong on a document of the wrong structure into an error of the file."""
+    try:
+        yield
+    except LipwrightError:
+        raise
+    except (TypeError, AttributeError, LookupError, ValueError, OverflowError) as error:
+        raise FileFormatError(
+            f"breaks the structure of glTF ({type(error).__name__}: {error})",
+            where=where,
+            cure="export the model again",
+        ) from None
 
 
 def read_gltf(path: str | Path) -> Gltf:
@@ -197,7 +214,8 @@ def _whole(
     model = Gltf(document, binary or b"", where, rest)
     for kind in ("buffers", "bufferViews", "accessors", "meshes", "nodes", "images", "animations"):
         model.items(kind)
-    return _embed(model, binary, folder)
+    with structure(where):
+        return _embed(model, binary, folder)
 
 
 def _version(document: Any, where: str) -> str:

@@ -7,11 +7,12 @@ mesh's name and their place. Characters and exporters both ask here, so that the
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
 from lipwright.errors import FileFormatError
-from lipwright.gltf.container import Gltf
+from lipwright.gltf.container import Gltf, structure
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,10 +49,15 @@ def morph_meshes(model: Gltf) -> tuple[MorphMesh, ...]:
     Raises
     ------
     FileFormatError
-        If primitives of one mesh differ in their number of targets.
+        If primitives of one mesh differ in their number of targets, or the structure of
+        meshes and nodes is broken.
     """
+    with structure(model.where):
+        return tuple(_morph_meshes(model))
+
+
+def _morph_meshes(model: Gltf) -> Iterator[MorphMesh]:
     nodes = model.items("nodes")
-    found = []
     for index, mesh in enumerate(model.items("meshes")):
         name = str(mesh.get("name") or f"mesh {index}")
         count = _target_count(mesh, f"{model.where}, mesh {name!r}")
@@ -61,8 +67,7 @@ def morph_meshes(model: Gltf) -> tuple[MorphMesh, ...]:
         users = tuple(i for i, node in enumerate(nodes) if node.get("mesh") == index)
         rest = tuple(_weights(nodes[i].get("weights", mesh.get("weights")), count) for i in users)
         targets = names or tuple(f"{name}[{target}]" for target in range(count))
-        found.append(MorphMesh(index, name, targets, users, rest, names is not None))
-    return tuple(found)
+        yield MorphMesh(index, name, targets, users, rest, names is not None)
 
 
 def _target_count(mesh: dict[str, Any], where: str) -> int:
@@ -93,6 +98,7 @@ def _target_names(mesh: dict[str, Any], count: int) -> tuple[str, ...] | None:
 
 
 def _weights(given: Any, count: int) -> tuple[float, ...]:
-    if isinstance(given, list) and len(given) == count:
-        return tuple(float(weight) for weight in given)
+    numbers = isinstance(given, list) and all(isinstance(w, int | float) for w in given)
+    if numbers and len(given) == count:
+        return tuple(map(float, given))
     return (0.0,) * count

@@ -87,7 +87,9 @@ class GltfWriter:
         accessor["bufferView"] = self.view(_bytes(values), target)
         return self.add("accessors", accessor)
 
-    def sparse(self, values: NDArray[np.float32], *, limits: bool = False) -> int:
+    def sparse(
+        self, values: NDArray[np.float32], *, limits: bool = False, target: int | None = None
+    ) -> int:
         """Add an array that is mostly zero: only its other rows are stored, if that is less.
 
         Parameters
@@ -96,17 +98,19 @@ class GltfWriter:
             The array.
         limits : bool
             Whether to state the least and greatest values.
+        target : int, optional
+            :data:`VERTICES`, put on the view where the array is stored whole.
 
         Returns
         -------
         int
             The accessor's index.
         """
-        rows = np.flatnonzero(values.any(axis=1))
+        rows = np.flatnonzero(np.logical_or.reduce([column != 0 for column in values.T]))
         kind = np.dtype("<u2") if len(values) <= 1 << 16 else np.dtype("<u4")
         row_size = values.shape[1] * values.itemsize
         if len(rows) * (row_size + kind.itemsize) >= len(values) * row_size:
-            return self.accessor(values, limits=limits)
+            return self.accessor(values, limits=limits, target=target)
         accessor = _describe(values, limits)
         if len(rows):
             indices = {"bufferView": self.view(rows.astype(kind).tobytes())}
@@ -139,6 +143,7 @@ def _describe(values: NDArray[Any], limits: bool) -> dict[str, Any]:
         "type": _TYPES[width],
     }
     if limits:
-        rows = values.reshape(len(values), width)
-        accessor["min"], accessor["max"] = rows.min(axis=0).tolist(), rows.max(axis=0).tolist()
+        columns = values.reshape(len(values), width).T
+        accessor["min"] = [column.min().item() for column in columns]
+        accessor["max"] = [column.max().item() for column in columns]
     return accessor

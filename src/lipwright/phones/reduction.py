@@ -18,7 +18,7 @@ from lipwright.errors import LabelError
 from lipwright.files import convert, read_document
 from lipwright.phones.sets import DATA, SILENCE
 from lipwright.phones.track import PhoneTrack
-from lipwright.timeline import Interval, Tier
+from lipwright.timeline import Interval
 
 
 class Piece(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
@@ -44,6 +44,7 @@ class ReductionReport:
     stand_ins: dict[str, str] = field(default_factory=dict)
 
 
+Row = tuple[str, float, float]
 Finder = Callable[[str], tuple[tuple[Piece, ...], bool] | None]
 
 
@@ -86,8 +87,8 @@ class Reduction:
             )
         return found
 
-    def apply(self, track: PhoneTrack) -> tuple[PhoneTrack, ReductionReport]:
-        """Return the track in the target set, with a report.
+    def rows(self, track: PhoneTrack) -> tuple[list[Row], ReductionReport]:
+        """Return ``(label, start, end)`` of each phone in the target set, with a report.
 
         Raises
         ------
@@ -96,18 +97,17 @@ class Reduction:
         """
         report = ReductionReport()
         known = self._pieces({phone.label for phone in track}, report)
-        reduced: list[Interval] = []
+        rows: list[Row] = []
         for phone in track:
             pieces = known[phone.label]
             if len(pieces) == 1:
-                label = pieces[0].label
-                reduced.append(Interval(label, phone.start, phone.end, phone.confidence))
+                rows.append((pieces[0].label, phone.start, phone.end))
             else:
-                reduced.extend(_split(phone, pieces))
-        return PhoneTrack(Tier(tuple(reduced)), self.target), report
+                rows.extend(_split(phone, pieces))
+        return rows, report
 
     def _pieces(self, labels: set[str], report: ReductionReport) -> dict[str, tuple[Piece, ...]]:
-        known = {SILENCE: (Piece(SILENCE),)}
+        known: dict[str, tuple[Piece, ...]] = {SILENCE: (Piece(SILENCE),)}
         unknown = []
         for label in sorted(labels - {SILENCE}):
             try:
@@ -127,17 +127,17 @@ class Reduction:
         return known
 
 
-def _split(phone: Interval, pieces: tuple[Piece, ...]) -> list[Interval]:
+def _split(phone: Interval, pieces: tuple[Piece, ...]) -> list[Row]:
     total = sum(piece.share for piece in pieces)
-    result: list[Interval] = []
+    rows: list[Row] = []
     start, passed = phone.start, 0.0
     for index, piece in enumerate(pieces):
         passed += piece.share / total
         last = index == len(pieces) - 1
         end = phone.end if last else phone.start + passed * phone.duration
-        result.append(Interval(piece.label, start, end, phone.confidence))
+        rows.append((piece.label, start, end))
         start = end
-    return result
+    return rows
 
 
 class _Document(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
@@ -183,8 +183,11 @@ def load_reduction(source: str, target: str = "common") -> Reduction:
 
 
 def _finder(source: str, target: str) -> Finder | None:
-    if source == "ipa" and target == "common":
-        from lipwright.phones.ipa import nearest_class  # only IPA needs its tables
+    if target != "common" or source not in ("ipa", "sampa"):
+        return None
+    from lipwright.phones.ipa import nearest_class  # only IPA needs its tables
 
+    if source == "ipa":
         return nearest_class
-    return None
+    to_ipa = load_reduction("sampa", "ipa").table
+    return lambda label: nearest_class(to_ipa[label][0].label) if label in to_ipa else None

@@ -7,12 +7,12 @@ so that any part that lies on the face (skin, brows) moves with it.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from lipwright.character.head.lids import EYE_CENTER
+from lipwright.character.head.lids import EYE_CENTER, FIRST_TURN, rim_turn
 from lipwright.character.head.lids import RIM as LID_RIM
 from lipwright.character.head.lips import CONTACT, CORNER, RED, half_turns
 from lipwright.character.head.skin import Skin
@@ -21,9 +21,11 @@ Floats = NDArray[np.float64]
 
 _MOUTH_Y = CORNER[1]
 # Per loop from the window's edge inward: how far `side` is counted along the loop.
-_ALONG = np.array([0.0, 0.3, 0.6, 0.85, 0.97] + [1.0] * 11)
+_ALONG = np.array([0.0, 0.3, 0.6, 0.85, 0.97] + [1.0] * 12)
 # Loops behind the contact follow the lips less and less.
-_FOLLOW = np.array([0.95, 0.7, 0.3, 0.06, 0.0, 0.0, 0.0])
+# Loops of the lids, from the window's edge to behind the rim.
+_LID_SHARES = np.array([0.0, 0.10, 0.32, 0.62, 0.88, 1.0, 1.0, 1.0])
+_FOLLOW = np.array([1.0, 0.95, 0.7, 0.3, 0.06, 0.0, 0.0, 0.0])
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -45,8 +47,12 @@ class Anatomy:
         0 outside the red of the lips, 1 where they meet and inside.
     flap : 0..1
         The inner side of the lower lip, which presses up behind the upper lip.
-    lid : (2, V) float64, -1..1
-        Of the left and right eye: 1 on the upper lid's rim, -1 on the lower lid's.
+    lid : (2, V) float64, degrees
+        Of the left and right eye: how far the vertex turns about the eyeball to close it.
+    skin : 0..1
+        1 on the face's surface, 0 inside the mouth and on the eyeballs.
+    ball : -1, 0, 1
+        1 on the left eyeball, -1 on the right one.
     tongue : 0..1
         Share of the tongue's length, 1 at the tip; NaN elsewhere.
     """
@@ -59,7 +65,13 @@ class Anatomy:
     red: Floats
     flap: Floats
     lid: Floats
+    skin: Floats
+    ball: Floats
     tongue: Floats
+
+    def with_jaw(self, jaw: Floats) -> Anatomy:
+        """Return the same part with other weights of the jaw."""
+        return replace(self, jaw=jaw)
 
 
 def step(low: float, high: float, values: Floats) -> Floats:
@@ -68,12 +80,14 @@ def step(low: float, high: float, values: Floats) -> Floats:
     return np.asarray(share * share * (3.0 - 2.0 * share), np.float64)
 
 
-def rigid(points: Floats, jaw: float, tongue: Floats | None = None) -> Anatomy:
-    """Return the fields of a part inside the mouth, which goes with the jaw by `jaw`."""
+def rigid(
+    points: Floats, jaw: float = 0.0, *, tongue: Floats | None = None, ball: float = 0.0
+) -> Anatomy:
+    """Return the fields of a part under the skin, which goes with the jaw by `jaw`."""
     none = np.zeros(len(points))
     lid = np.zeros((2, len(points)))
     share = np.full(len(points), np.nan) if tongue is None else tongue
-    return Anatomy(points, none + jaw, none, none, none, none, none, lid, share)
+    return Anatomy(points, none + jaw, none, none, none, none, none, lid, none, none + ball, share)
 
 
 def on_face(points: Floats) -> Anatomy:
@@ -89,7 +103,9 @@ def on_face(points: Floats) -> Anatomy:
     none = np.zeros(len(points))
     lid = np.zeros((2, len(points)))
     nan = np.full(len(points), np.nan)
-    return Anatomy(points, _jaw(points, side, away), near, wide, side, none, none, lid, nan)
+    return Anatomy(
+        points, _jaw(points, side, away), near, wide, side, none, none, lid, none + 1.0, none, nan
+    )
 
 
 def _lip_jaw(side: Floats) -> Floats:
@@ -120,7 +136,7 @@ def of_skin(skin: Skin) -> Anatomy:
     around = np.cos(np.pi * np.concatenate([turn, turn[-2:0:-1]]))
     side, near, wide, jaw = (field.copy() for field in (face.side, face.near, face.wide, face.jaw))
     red, flap = np.zeros(len(side)), np.zeros(len(side))
-    reds = np.concatenate([np.zeros(RED + 2), np.linspace(0, 1, CONTACT - RED + 1)[1:], np.ones(7)])
+    reds = np.concatenate([np.zeros(RED + 2), np.linspace(0, 1, CONTACT - RED + 1)[1:], np.ones(len(_FOLLOW))])
     for number in range(loops):
         ids = skin.mouth[number]
         side[ids] = face.side[ids] * (1 - _ALONG[number]) + around * _ALONG[number]
@@ -131,25 +147,28 @@ def of_skin(skin: Skin) -> Anatomy:
     for behind, follow in enumerate(_FOLLOW):
         ids = skin.mouth[CONTACT + 2 + behind]
         near[ids] = wide[ids] = follow
-        deep = step(0.0, 3.0, np.full(count, float(behind)))
+        deep = step(1.0, 4.0, np.full(count, float(behind)))
         jaw[ids] = _lip_jaw(around) * (1 - deep) + (0.5 - 0.5 * around) * deep
-    flap[skin.mouth[CONTACT + 2]] = np.clip(-around, 0.0, 1.0) ** 0.5
-    inside = np.ones(len(side), dtype=bool)
-    inside[skin.mouth[CONTACT + 2 :].ravel()] = False
+    flap[skin.mouth[CONTACT + 3]] = np.clip(-around, 0.0, 1.0) ** 0.5
+    face.skin[skin.mouth[CONTACT + 2 :].ravel()] = 0.0
     last = np.argmin(np.abs(skin.points - (0.0, -0.074, 0.017)).sum(axis=1))
     near[last] = wide[last] = 0.0
     jaw[last] = 0.5
-    return Anatomy(skin.points, jaw, near, wide, side, red, flap, _lids(skin), face.tongue)
+    return replace(
+        face, jaw=jaw, near=near, wide=wide, side=side, red=red, flap=flap, lid=_lids(skin)
+    )
 
 
 def _lids(skin: Skin) -> Floats:
-    """Return how much each vertex goes with the lids' rims."""
-    weights = np.zeros((2, len(skin.points)))
-    falling = np.array([0.0, 0.12, 0.38, 0.68, 0.9, 1.0, 1.0, 1.0])
-    assert len(falling) == LID_RIM + 4
+    """Return by how many degrees each vertex turns about the eyeball when the eye closes."""
+    turns = np.zeros((2, len(skin.points)))
     for eye in range(2):
         loops = skin.eyes[eye]
-        turn = (np.arange(loops.shape[1]) + 2.0) / loops.shape[1] % 1.0
-        weights[eye][loops] = falling[:, None] * np.sign(0.5 - turn) * np.abs(np.sin(2 * np.pi * turn)) ** 0.0
-    assert EYE_CENTER[0] > 0
-    return weights
+        count = loops.shape[1]
+        rim = skin.points[loops[LID_RIM + 2]] - EYE_CENTER * (1.0 - 2.0 * eye, 1.0, 1.0)
+        pitch = np.degrees(np.arctan2(rim[:, 1], rim[:, 2]))
+        other = pitch[(count - 2 * FIRST_TURN - np.arange(count)) % count]
+        upper = rim_turn(count) < 0.5
+        meeting = np.where(upper, 0.85 * other + 0.15 * pitch, 0.85 * pitch + 0.15 * other)
+        turns[eye][loops] = _LID_SHARES[:, None] * (pitch - meeting)
+    return turns

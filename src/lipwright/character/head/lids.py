@@ -14,17 +14,21 @@ EYE_CENTER = np.array([0.0318, 0.0, 0.0655])
 EYE_RADIUS = 0.0128
 _INNER = (0.0158, -0.0022)  # corners of the opening
 _OUTER = (0.0478, 0.0010)
-_UPPER_RISE, _LOWER_FALL = 0.0072, 0.0062
+_UPPER_RISE, _LOWER_FALL = 0.0061, 0.0056
 _SHARES = (0.28, 0.50, 0.68, 0.83)  # of the way from the window's edge to the lid's rim
+FIRST_TURN = 3  # loop vertices from the inner corner to the window's upper inner corner
 RIM = len(_SHARES)  # the lid's front rim, counted from the first loop made here
+
+
+def rim_turn(count: int) -> Floats:
+    """Return each loop vertex's turn: 0 at the inner corner, 0.5 at the outer one."""
+    return np.asarray((np.arange(count) + FIRST_TURN) / count % 1.0, np.float64)
 
 
 def opening(count: int) -> tuple[Floats, Floats]:
     """Return the lids' rim, clockwise from the upper inner side: (n, 2) metres, and its turn.
-
-    The turn is 0 at the inner corner, 0.5 at the outer one, 1 at the inner one again.
     """
-    turn = (np.arange(count) + 2.0) / count % 1.0
+    turn = rim_turn(count)
     along = 0.5 - 0.5 * np.cos(2 * np.pi * turn)
     x = _INNER[0] + (_OUTER[0] - _INNER[0]) * along
     y = _INNER[1] + (_OUTER[1] - _INNER[1]) * along
@@ -48,9 +52,16 @@ def left_lids(edge: Floats) -> Floats:
     center = rim.mean(axis=0)
     loops.append(_on_ball(center + (rim - center) * [1.02, 1.10], 0.0019))
     loops.append(_on_ball(rim, 0.0006))
-    behind = _on_ball(center + (rim - center) * [1.03, 1.25], -0.0006)
-    loops.append(behind)
+    loops.append(_behind(rim, center))
     return np.stack(loops)
+
+
+def _behind(rim: Floats, center: Floats) -> Floats:
+    """Return a loop inside the ball: behind the lids, and before the ball's rim at the corners."""
+    away = np.hypot(rim[:, 0] - EYE_CENTER[0], rim[:, 1] - EYE_CENTER[1]) / EYE_RADIUS
+    corner = np.clip((away - 0.75) / 0.3, 0.0, 1.0)[:, None]
+    lids = center + (rim - center) * [1.02, 1.25]
+    return _on_ball(lids * (1 - corner) + (center + (rim - center) * 0.80) * corner, -0.0007)
 
 
 def _on_ball(xy: Floats, above: float) -> Floats:

@@ -23,11 +23,12 @@ class _Bump(NamedTuple):
     radius_y: float
     height: float
     sideways: float = 0.0
+    upward: float = 0.0
 
 
 _BUMPS = {
     "orbit": _Bump(31.0, 0.0, 19.0, 13.0, -6.5),
-    "inner orbit": _Bump(14.5, 5.0, 7.5, 10.0, -4.5),
+    "inner orbit": _Bump(14.5, 6.0, 7.5, 9.0, -3.0),
     "brow ridge": _Bump(27.0, 19.0, 20.0, 7.5, 2.8),
     "glabella": _Bump(0.0, 20.0, 12.0, 9.0, 1.0),
     "cheekbone": _Bump(45.0, -24.0, 17.0, 12.0, 3.2, 1.5),
@@ -41,26 +42,30 @@ _BUMPS = {
     "philtrum": _Bump(0.0, -54.0, 3.4, 7.5, -1.3),
     "philtrum ridge": _Bump(6.0, -55.0, 3.0, 8.0, 0.6),
     "corner of mouth": _Bump(30.0, -70.0, 7.0, 9.0, -1.2),
-    "nose wing": _Bump(12.3, -40.3, 5.2, 5.6, 9.2, 0.6),
-    "wing crease": _Bump(19.5, -40.0, 3.2, 7.0, -1.6),
-    "nostril": _Bump(6.3, -45.2, 3.2, 2.4, -5.0),
+    "nose side": _Bump(11.0, -30.0, 7.0, 11.0, 2.2),
+    "nose tip": _Bump(0.0, -37.5, 7.5, 5.0, 1.6),
+    "columella": _Bump(0.0, -44.0, 3.4, 2.6, 0.5, 0.0, -1.8),
+    "nose wing": _Bump(12.8, -40.4, 4.4, 4.4, 8.4, 0.6, -0.6),
+    "wing crease": _Bump(19.6, -40.0, 3.0, 6.5, -1.4),
+    "nostril": _Bump(6.8, -44.6, 2.6, 2.0, -2.2, 0.0, 1.3),
 }
 
 _RIDGE = np.array(
     [  # y, height above the loft, half-width
         [18.0, 0.0, 9.0],
-        [10.0, 0.0, 7.0],
-        [3.0, 1.6, 5.6],
-        [-6.0, 6.2, 5.6],
-        [-16.0, 12.2, 6.6],
-        [-26.0, 18.6, 8.0],
-        [-33.0, 23.2, 9.0],
-        [-37.5, 25.4, 9.4],
-        [-41.0, 24.2, 9.0],
-        [-44.0, 18.5, 8.2],
-        [-46.5, 9.0, 7.4],
-        [-49.0, 2.5, 7.0],
-        [-53.0, 0.0, 7.0],
+        [10.0, 0.2, 6.6],
+        [3.0, 2.0, 5.4],
+        [-6.0, 6.4, 5.2],
+        [-16.0, 11.8, 5.8],
+        [-26.0, 17.8, 6.6],
+        [-32.0, 21.6, 7.4],
+        [-36.5, 24.0, 8.0],
+        [-40.0, 23.2, 7.6],
+        [-42.6, 19.6, 6.4],
+        [-44.8, 13.0, 5.2],
+        [-47.0, 5.2, 4.6],
+        [-49.5, 1.2, 4.6],
+        [-53.0, 0.0, 5.0],
     ]
 )
 
@@ -109,6 +114,9 @@ def relief(points: Floats) -> Floats:
         hill = _hill(x, y, bump) * shown
         total[:, 2] += bump.height * hill
         total[:, 0] += bump.sideways * hill * np.sign(x)
-    ridge = np.exp(-0.69 * (x / _drawn(y, 2)) ** 2)
-    total[:, 2] += _drawn(y, 1) * ridge * shown
+        total[:, 1] += bump.upward * hill
+    # The tip's underside rises to both sides of the columella.
+    under = np.where(y < -36.0, y - 1.6 * np.minimum(np.abs(x) / 7.0, 1.6) ** 2, y)
+    ridge = np.exp(-0.69 * np.abs(x / _drawn(y, 2)) ** 1.9)
+    total[:, 2] += _drawn(under, 1) * ridge * shown
     return total * 1e-3

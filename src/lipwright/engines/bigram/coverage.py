@@ -54,8 +54,8 @@ def coverage(of: BigramSet, lines: Iterable[PhoneTrack] | None = None) -> Covera
     else:
         settings = of.rules.settings
         for track in lines:
-            reduced, _ = load_reduction(track.phone_set, of.phone_set).apply(track)
-            spans = prepare(reduced.tier, settings.padding, settings.silence_reach)
+            rows, _ = load_reduction(track.phone_set, of.phone_set).rows(track)
+            spans = prepare(rows, settings.padding, settings.silence_reach)
             counts.update(spans.pairs)
     needed = dict(counts.most_common())
     missing = tuple(pair for pair in needed if pair not in of.bigrams)

@@ -96,9 +96,9 @@ class BigramEngine:
             If phones are unknown or overlap.
         """
         reduction = load_reduction(self._reduction or track.phone_set, self.of.phone_set)
-        classes, report = reduction.apply(track)
+        rows, report = reduction.rows(track)
         settings = self.rules.settings
-        spans = prepare(classes.tier, settings.padding, settings.silence_reach)
+        spans = prepare(rows, settings.padding, settings.silence_reach)
         if not spans.labels:
             return Solved(spans, None, report)
         placed = self.table.place(spans, settings.warp)

@@ -135,21 +135,13 @@ def _odd_in_run(flags: NDArray[np.bool_]) -> NDArray[np.bool_]:
     return odd
 
 
-def maxima(values: Floats) -> Ints:
-    """Return the indices of maxima: both ends of every plateau that falls on both sides."""
-    rise = np.diff(values)
-    sign = np.where(rise > FLAT, 1, np.where(rise < -FLAT, -1, 0))
-    count = len(values)
-    index = np.arange(count - 1)
-    before = np.zeros(count, dtype=np.int64)
-    after = np.zeros(count, dtype=np.int64)
-    before[1:] = sign[np.maximum.accumulate(np.where(sign != 0, index, 0))]
-    following = np.where(sign != 0, index, count - 2)[::-1]
-    after[:-1] = sign[np.minimum.accumulate(following)[::-1]]
-    edge = np.zeros(count, dtype=bool)
-    edge[1:] |= sign != 0
-    edge[:-1] |= sign != 0
-    return np.flatnonzero((before > 0) & (after < 0) & edge)
+def maxima(values: Floats) -> tuple[Ints, Ints]:
+    """Return first and last index of every key or plateau that falls on both sides."""
+    rise = values[1:] - values[:-1]
+    moves = np.flatnonzero(np.abs(rise) > FLAT)
+    up = rise[moves] > 0
+    tops = np.flatnonzero(up[:-1] & ~up[1:])
+    return moves[tops] + 1, moves[tops + 1]
 
 
 def range_max(values: Floats, low: Ints, high: Ints) -> Floats:

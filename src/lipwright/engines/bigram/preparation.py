@@ -6,6 +6,7 @@ so every line starts and ends in silence.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -14,9 +15,9 @@ import numpy as np
 from lipwright.engines.bigram.polyline import Floats, Ints
 from lipwright.errors import LabelError
 from lipwright.phones import SILENCE
-from lipwright.timeline import Tier
 
 ROUNDING = 0.010
+Row = tuple[str, float, float]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -49,14 +50,14 @@ class Spans:
         return list(pairwise(self.labels))
 
 
-def prepare(phones: Tier, padding: float, silence_reach: float) -> Spans:
+def prepare(phones: Sequence[Row], padding: float, silence_reach: float) -> Spans:
     """Return the bigrams of a line and their times.
 
     Parameters
     ----------
-    phones : Tier
-        Classes of the set, in order; gaps of 10 ms and more become silence, smaller ones
-        are closed in the middle.
+    phones : sequence of (str, float, float)
+        Classes of the set with start and end in seconds, in order and without overlap;
+        gaps of 10 ms and more become silence, smaller ones are closed in the middle.
     padding, silence_reach : float
         Seconds, see :class:`~lipwright.engines.bigram.model.Settings`.
 
@@ -66,8 +67,8 @@ def prepare(phones: Tier, padding: float, silence_reach: float) -> Spans:
         If a phone has no length: it names it.
     """
     line = _Line([], [], [], [])
-    starts = np.array([phone.start for phone in phones])
-    ends = np.array([phone.end for phone in phones])
+    starts = np.array([start for _, start, _ in phones])
+    ends = np.array([end for _, _, end in phones])
     gaps = starts[1:] - ends[:-1]
     close = (gaps != 0) & (gaps < ROUNDING)
     middles = 0.5 * (starts[1:] + ends[:-1])[close]
@@ -75,8 +76,8 @@ def prepare(phones: Tier, padding: float, silence_reach: float) -> Spans:
     ends[:-1][close] = middles
     silences = np.append(gaps >= ROUNDING, [False]).tolist()
     rows = zip(phones, starts.tolist(), ends.tolist(), silences, strict=True)
-    for index, (phone, start, end, silence) in enumerate(rows):
-        line.add(phone.label, start, end, index)
+    for index, ((label, _, _), start, end, silence) in enumerate(rows):
+        line.add(label, start, end, index)
         if silence:
             line.add(SILENCE, end, float(starts[index + 1]), -1)
     if all(label == SILENCE for label in line.labels):

@@ -112,7 +112,10 @@ def _bends(line: Line, grid: _Grid, half: Floats) -> Floats:
     scale = np.divide(bend, 6 * width**2, out=np.zeros_like(bend), where=width > 0)
     added = scale[key] * distance**3
     total = grid.axis.count * grid.count
-    return grid.shaped(np.bincount(block[key] * grid.count + index, weights=added, minlength=total))
+    summed: Floats = np.bincount(
+        block[key] * grid.count + index, weights=added, minlength=total
+    ).astype(np.float64)
+    return grid.shaped(summed)
 
 
 def _pchip(line: Line, grid: _Grid) -> Floats:

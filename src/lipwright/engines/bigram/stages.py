@@ -17,9 +17,9 @@ from lipwright.engines.bigram.polyline import (
     FLAT,
     Axis,
     Floats,
+    Ints,
     Line,
     combine,
-    crossings,
     hold,
     insert,
     maxima,
@@ -141,13 +141,17 @@ def stitch(placed: Placed, axis: Axis) -> Line:
     """
     edges = _edges(axis)
     ends = edges + axis.width * (1 - 1e-9)
+    blocks = np.arange(axis.count, dtype=np.int16)
     lanes = []
     for parity in (0, 1):
         mine = (placed.bigram & 1) == parity
-        times = placed.pose[mine] * axis.width + (placed.times[mine] - axis.base)
-        times = np.concatenate((edges, times, ends))
+        pose = np.concatenate((blocks, placed.pose[mine], blocks))
+        times = np.concatenate(
+            (edges, placed.times[mine] - axis.base + placed.pose[mine] * axis.width, ends)
+        )
         values = np.concatenate((0 * edges, placed.values[mine], 0 * ends))
-        order = np.argsort(times, kind="stable")
+        # Within a lane keys are in order of time already: only poses must be sorted.
+        order = np.argsort(pose, kind="stable")
         lanes.append(merge_equal(times[order], values[order]))
     return _pruned(combine(lanes[0], lanes[1]), axis)
 
@@ -194,46 +198,46 @@ def _stop(parts: list[Line], axis: Axis, a: int, b: int, threshold: float) -> Li
 
 
 def _smooth(line: Line, axis: Axis, windows: Floats, stops: list[Line], valleys: str) -> Line:
-    times, values = line
     while True:
-        peaks = maxima(values)
-        if len(peaks) < 2:
-            return times, values
-        left, right = times[peaks[:-1]], times[peaks[1:]]
+        times, values = line
+        firsts, lasts = maxima(values)
+        left, right = times[lasts[:-1]], times[firsts[1:]]
         block = axis.block_of(left)
         near = (right - left <= windows[block]) & (block == axis.block_of(right))
+        near &= firsts[1:] > lasts[:-1] + 1  # a valley has keys
         for starts, ends in stops:
             before = np.searchsorted(ends, left, side="right")
             near &= np.searchsorted(starts, right, side="left") <= before
-        lifted = _lift(times, values, peaks, near, valleys)
+        lifted = _lift(line, lasts[:-1][near], firsts[1:][near], valleys)
         if lifted is None:
-            return times, values
-        times, values = lifted
+            return line
+        line = lifted
 
 
-def _lift(
-    times: Floats, values: Floats, peaks: np.ndarray, near: np.ndarray, valleys: str
-) -> Line | None:
-    """Draw the chords of all near pairs of maxima at once; None where nothing changes."""
-    marks = np.zeros(len(times), dtype=np.int64)
-    marks[peaks] = 1
-    gap = np.cumsum(marks) - 1
-    inside = (gap >= 0) & (gap < len(near))
-    inside[inside] = near[gap[inside]]
-    chord = np.interp(times, times[peaks], values[peaks])
-    below = np.where(inside, chord - values, 0.0)
-    below[peaks] = 0.0
-    if valleys == "replace":
-        away = np.abs(below) > FLAT
-        return (times[~away], values[~away]) if away.any() else None
-    under = below > FLAT
-    if not under.any():
+def _lift(line: Line, lefts: Ints, rights: Ints, valleys: str) -> Line | None:
+    """Draw the chords from keys ``lefts`` to keys ``rights`` at once; None if all are drawn."""
+    times, values = line
+    counts = rights - lefts + 1
+    gap = np.repeat(np.arange(len(lefts)), counts)
+    keys = lefts[gap] + np.arange(len(gap)) - np.repeat(np.cumsum(counts) - counts, counts)
+    slope = (values[rights] - values[lefts]) / (times[rights] - times[lefts])
+    chord = values[lefts][gap] + slope[gap] * (times[keys] - times[lefts][gap])
+    below = chord - values[keys]
+    below[(keys == lefts[gap]) | (keys == rights[gap])] = 0.0
+    away = below > FLAT if valleys == "lift" else np.abs(below) > FLAT
+    if not away.any():
         return None
-    between = inside[:-1]
-    when, height = crossings(times, np.where(inside, chord, values), values)
-    cross = np.flatnonzero(below[1:] * below[:-1] < 0)
-    keep = between[cross] & (under[cross] | under[cross + 1])
-    return insert((times[~under], values[~under]), (when[keep], height[keep]))
+    keep = np.ones(len(times), dtype=bool)
+    keep[keys[away]] = False
+    drawn = times[keep], values[keep]
+    if valleys == "replace":
+        return drawn
+    cross = np.flatnonzero((below[1:] * below[:-1] < 0) & (gap[1:] == gap[:-1]))
+    share = below[cross] / (below[cross] - below[cross + 1])
+    here, there = keys[cross], keys[cross + 1]
+    when = times[here] + share * (times[there] - times[here])
+    height = values[here] + share * (values[there] - values[here])
+    return insert(drawn, (when, height))
 
 
 def bound(smoothed: Line, axis: Axis, plan: Plan, rules: Rules) -> tuple[Line, Line]:

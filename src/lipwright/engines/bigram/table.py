@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 import numpy as np
+from numpy.typing import NDArray
 
 from lipwright.engines.bigram.model import Bigram, BigramSet, Pair
 from lipwright.engines.bigram.polyline import Floats, Ints
@@ -27,7 +28,7 @@ class Placed:
     """
 
     bigram: Ints
-    pose: Ints
+    pose: NDArray[np.int16]
     times: Floats
     values: Floats
 
@@ -111,4 +112,4 @@ class Table:
                 start + share / boundary * (middle - start),
                 end - (1 - share) / (1 - boundary) * (end - middle),
             )
-        return Placed(bigram, pose.astype(np.int64), times, values)
+        return Placed(bigram, pose.astype(np.int16), times, values)

@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from lipwright.engines.bigram.engine import BigramEngine, Solved
-from lipwright.engines.bigram.polyline import Floats, Line, maxima
+from lipwright.engines.bigram.polyline import Line, maxima
 from lipwright.engines.bigram.stages import Stages
 from lipwright.errors import InputError
 
@@ -184,35 +184,28 @@ class _Tracer:
             float(spans.first[index]),
             float(spans.last[index]),
             float(np.interp(time, times, values, left=0, right=0)),
-            self._drawn(index, times, values, time),
+            self._drawn(index, time),
         )
 
-    def _drawn(
-        self, index: int, times: Floats, values: Floats, time: float
-    ) -> tuple[tuple[float, float], ...]:
-        """The keys on both sides of an instant, as drawn in 0..1."""
+    def _drawn(self, index: int, time: float) -> tuple[tuple[float, float], ...]:
+        """The two keys on both sides of an instant, as drawn in 0..1."""
         pair = self.solved.spans.pairs[index]
         bigram = self.engine.table.bigrams[self.engine.table.rows_of([pair])[0]]
-        drawn = bigram.curves[self.engine.plan.names[self.pose]]
-        right = int(np.clip(np.searchsorted(times, time, "right"), 1, len(times) - 1))
-        share = np.interp(times, times, self._shares(index, times, bigram.boundary))
-        pairs = {
-            (round(float(share[i]), 4), round(float(values[i]), 4)) for i in (right - 1, right)
-        }
-        known = [(round(t, 4), round(v, 4)) for t, v in drawn.pairs()]
-        near = sorted(pairs)
-        return tuple(pair for pair in near if pair in known) or tuple(near)
+        drawn = bigram.curves[self.engine.plan.names[self.pose]].pairs()
+        share = self._share(index, time, bigram.boundary)
+        before = [key for key in drawn if key[0] <= share][-1:]
+        after = [key for key in drawn if key[0] > share][:1]
+        return tuple(before + after)
 
-    def _shares(self, index: int, times: Floats, boundary: float) -> Floats:
+    def _share(self, index: int, time: float, boundary: float) -> float:
+        """An instant in the 0..1 of a bigram: placing (stage 1) undone."""
         spans = self.solved.spans
         first, middle, last = (float(s[index]) for s in (spans.first, spans.boundary, spans.last))
         if self.engine.rules.settings.warp == "linear":
-            return (times - first) / (last - first)
-        return np.where(
-            times <= middle,
-            (times - first) / (middle - first) * boundary,
-            1 - (last - times) / (last - middle) * (1 - boundary),
-        )
+            return (time - first) / (last - first)
+        if time <= middle:
+            return (time - first) / (middle - first) * boundary
+        return 1 - (last - time) / (last - middle) * (1 - boundary)
 
     def reasons(self, value: float) -> list[Reason]:
         """What each stage did."""
@@ -237,7 +230,7 @@ class _Tracer:
     def _smoothed(self, before: float, after: float) -> str:
         times, values = self._line(self.stages.smoothed)
         stitched = self._line(self.stages.stitched)
-        peaks = stitched[0][maxima(stitched[1])]
+        peaks = stitched[0][maxima(stitched[1])[0]]
         left = peaks[peaks <= self.time]
         right = peaks[peaks > self.time]
         if not (len(left) and len(right)):

@@ -7,9 +7,9 @@ when; a stop's closure is counted in the stop (DESIGN section 10).
 
 from __future__ import annotations
 
-from lipwright.errors import InputError, TextError
-from lipwright.schedule.say import espeak
-from lipwright.schedule.say.assemble import assemble
+from lipwright.errors import InputError, MissingExtraError, TextError
+from lipwright.schedule.say import espeak, festival
+from lipwright.schedule.say.assemble import from_espeak, from_festival
 from lipwright.schedule.say.voices import (
     Voice,
     as_voices,
@@ -18,7 +18,7 @@ from lipwright.schedule.say.voices import (
     resolve,
     unknown_voice,
 )
-from lipwright.schedule.say.words import prepare
+from lipwright.schedule.say.words import Script, prepare
 from lipwright.speech import Speech
 
 __all__ = ["Voice", "say", "voices"]
@@ -26,6 +26,7 @@ __all__ = ["Voice", "say", "voices"]
 _LONGEST_TEXT = 100_000  # characters, about two hours of speech
 _RATES = (80, 450)
 _PITCHES = (0, 99)
+_ENGINES = ("espeak", "festival")
 
 
 def say(
@@ -77,15 +78,49 @@ def say(
             expected=f"at most {_LONGEST_TEXT:,}",
             cure="say it in parts",
         )
+    if engine not in _ENGINES:
+        raise InputError(f"no speech engine {engine!r}", expected=" or ".join(_ENGINES))
     script = prepare(text)
+    if engine == "festival" or voice.split(":")[0] == "festival":
+        return _say_with_festival(script, text, voice, rate, pitch)
     spoken, notes = _speak(script.spoken, voice, round(rate), pitch)
-    return assemble(spoken, script, text=text, notes=notes)
+    return from_espeak(spoken, script, text=text, notes=notes)
 
 
 def voices() -> list[Voice]:
-    """Return the voices that are installed, by engine and language."""
-    listed, _ = espeak.installed_voices()
-    return sorted(as_voices(listed), key=lambda voice: (voice.engine, voice.language))
+    """Return the voices that are installed: espeak-ng's by language, then Festival's.
+
+    Raises
+    ------
+    MissingExtraError
+        If there is no synthesiser at all.
+    """
+    others = [
+        Voice(name=name, language=f"festival:{name}", engine="festival", languages=("en-us",))
+        for name in festival.installed_voices()
+    ]
+    try:
+        listed, _ = espeak.installed_voices()
+    except MissingExtraError:
+        if not others:
+            raise
+        listed = []
+    return sorted(as_voices(listed), key=lambda voice: voice.language) + others
+
+
+def _say_with_festival(
+    script: Script, text: str, voice: str, rate: float, pitch: float | None
+) -> Speech:
+    if pitch is not None:
+        raise InputError(
+            f"pitch {pitch:g} for a voice of Festival",
+            expected="no pitch",
+            cure="leave --pitch out, or use espeak",
+        )
+    check_script(script.spoken, "en-us")
+    name = "" if voice in ("festival", "en-us") else voice.removeprefix("festival:")
+    plain = festival.plain_script(script)
+    return from_festival(festival.speak(plain, name, rate=rate), plain, text=text)
 
 
 def _check_number(name: str, value: float, bounds: tuple[int, int], unit: str) -> None:

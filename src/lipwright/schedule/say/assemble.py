@@ -1,26 +1,33 @@
-"""From what espeak-ng spoke to a Speech: labels made plain, edges, words."""
+"""From what a synthesiser spoke to a Speech: plain labels, edges, words.
+
+Each line begins and ends with enough silence for the mouth to open in and to close in.
+"""
 
 from __future__ import annotations
 
 import unicodedata
+from itertools import pairwise
 
 import numpy as np
 
 from lipwright.phones import SILENCE, PhoneTrack
+from lipwright.schedule.say import espeak, festival
 from lipwright.schedule.say.closures import begin_stops_at_closure
-from lipwright.schedule.say.espeak import Spoken
 from lipwright.schedule.say.words import Script, TimedPhone, nothing_to_say, time_words
 from lipwright.sound import Sound
 from lipwright.speech import Speech
 from lipwright.timeline import Interval, Tier
 
-_LEAD_IN = 0.2  # seconds of silence before the first sound, for the mouth to open in
+_SILENCE_AROUND = 0.2  # seconds, the least before and after the speech
 _SHORTEST_PAUSE = 0.03  # seconds; shorter ones are joints inside a phrase
 _STOPS = tuple("pbtdkɡgcɟqɢʈɖʔɓɗɠʄʛʡ")
-_MARKS = str.maketrans("", "", "ˈˌ-.' ")
+_NOT_IPA = str.maketrans("SZNAXΦε?:`", "ʃʒŋɑχɸɛʔːʼ", "ˈˌ-.' #[_^\"")
+_ALONE = {"ᵐ": "m", "ⁿ": "n", "ᵑ": "ŋ"}
 
 
-def assemble(spoken: Spoken, script: Script, *, text: str, notes: tuple[str, ...] = ()) -> Speech:
+def from_espeak(
+    spoken: espeak.Spoken, script: Script, *, text: str, notes: tuple[str, ...] = ()
+) -> Speech:
     """Return the speech that a script became.
 
     Raises
@@ -28,26 +35,14 @@ def assemble(spoken: Spoken, script: Script, *, text: str, notes: tuple[str, ...
     TextError
         If not a single phone was spoken.
     """
-    lead = round(_LEAD_IN * spoken.rate)
-    samples = np.concatenate([np.zeros(lead, np.float32), spoken.samples])
-    labels, edges, positions = _plain(spoken, lead)
-    if all(label == SILENCE for label in labels):
-        raise nothing_to_say()
-    edges = begin_stops_at_closure(
-        samples, spoken.rate, labels, edges, is_stop=_is_stop, silence=SILENCE
-    )
-    times = [edge / spoken.rate for edge in edges]
-    phones = [
-        TimedPhone(label, start, end, position)
-        for label, start, end, position in zip(
-            labels, times[:-1], times[1:], positions, strict=True
-        )
-    ]
-    track = Tier(tuple(Interval(phone.label, phone.start, phone.end) for phone in phones))
+    labels, edges, positions = _plain(spoken)
+    phones = _timed(labels, edges, positions, spoken.rate)
+    sound, phones = _with_silence(Sound(spoken.samples, spoken.rate), phones)
+    phones = _with_closures(sound, phones)
     return Speech(
-        phones=PhoneTrack(track, "ipa"),
-        words=time_words(script, [phone for phone in phones if phone.label != SILENCE]),
-        sound=Sound(samples, spoken.rate),
+        phones=_track(phones, "ipa"),
+        words=_words(script, phones),
+        sound=sound,
         text=text,
         language=spoken.language,
         source="say",
@@ -55,32 +50,113 @@ def assemble(spoken: Spoken, script: Script, *, text: str, notes: tuple[str, ...
     )
 
 
+def from_festival(spoken: festival.Spoken, script: Script, *, text: str) -> Speech:
+    """Return the speech that a script became.
+
+    Raises
+    ------
+    TextError
+        If not a single phone was spoken.
+    """
+    sound, phones = _with_silence(Sound(spoken.samples, spoken.rate), list(spoken.phones))
+    return Speech(
+        phones=_track(phones, "arpabet"),
+        words=_words(script, phones),
+        sound=sound,
+        text=text,
+        language="en-us",
+        source="say",
+    )
+
+
+def _timed(
+    labels: list[str], edges: list[int], positions: list[int], rate: int
+) -> list[TimedPhone]:
+    times = [edge / rate for edge in edges]
+    return [
+        TimedPhone(label, start, end, position)
+        for label, (start, end), position in zip(labels, pairwise(times), positions, strict=True)
+    ]
+
+
+def _with_closures(sound: Sound, phones: list[TimedPhone]) -> list[TimedPhone]:
+    labels = [phone.label for phone in phones]
+    edges = [round(phone.start * sound.rate) for phone in phones] + [len(sound.samples)]
+    moved = begin_stops_at_closure(
+        sound.samples, sound.rate, labels, edges, is_stop=_is_stop, silence=SILENCE
+    )
+    return _timed(labels, moved, [phone.position for phone in phones], sound.rate)
+
+
+def _track(phones: list[TimedPhone], phone_set: str) -> PhoneTrack:
+    intervals = [Interval(phone.label, phone.start, phone.end) for phone in phones]
+    return PhoneTrack(Tier(tuple(intervals)), phone_set)
+
+
+def _words(script: Script, phones: list[TimedPhone]) -> Tier:
+    return time_words(script, [phone for phone in phones if phone.label != SILENCE])
+
+
+def _with_silence(sound: Sound, phones: list[TimedPhone]) -> tuple[Sound, list[TimedPhone]]:
+    """Return both with enough silence before and after."""
+    spoken = [phone for phone in phones if phone.label != SILENCE]
+    if not spoken:
+        raise nothing_to_say()
+    rate, total = sound.rate, len(sound.samples)
+    wanted = round(_SILENCE_AROUND * rate)
+    first, last = round(spoken[0].start * rate), round(spoken[-1].end * rate)
+    before, after = max(0, wanted - first), max(0, wanted - (total - last))
+    samples = np.pad(sound.samples, (before, after))
+    moved = [
+        TimedPhone(
+            phone.label,
+            (round(phone.start * rate) + before) / rate,
+            (round(phone.end * rate) + before) / rate,
+            phone.position,
+        )
+        for phone in phones[phones.index(spoken[0]) : phones.index(spoken[-1]) + 1]
+    ]
+    begin = TimedPhone(SILENCE, 0.0, moved[0].start, spoken[0].position)
+    end = TimedPhone(SILENCE, moved[-1].end, len(samples) / rate, spoken[-1].position)
+    return Sound(samples, rate), [begin, *moved, end]
+
+
 def plain_label(label: str) -> str:
-    """Return a label of espeak-ng without stress and joints: IPA, or ``sil``.
+    """Return a label of espeak-ng as IPA without stress, ``sil``, or nothing.
+
+    Some voices have no IPA for a sound and give the library's own ASCII name of it;
+    some give a mark (``ʲ``, a tone) as a phone of its own, which is nothing.
 
     Examples
     --------
-    >>> plain_label("ˈɑː"), plain_label("")
-    ('ɑː', 'sil')
+    >>> plain_label("ˈɑː"), plain_label("tS"), plain_label(""), plain_label("ʲ")
+    ('ɑː', 'tʃ', 'sil', '')
     """
-    return unicodedata.normalize("NFC", label).translate(_MARKS) or SILENCE
+    if not label:
+        return SILENCE
+    plain = unicodedata.normalize("NFC", label.replace("_h", "ʰ").translate(_NOT_IPA))
+    plain = _ALONE.get(plain, plain)
+    if plain.startswith("(") or not any(unicodedata.category(c) in ("Ll", "Lo") for c in plain):
+        return ""
+    return plain[:-2] + "ŋ" if len(plain) > 2 and plain.endswith("nɡ") else plain
 
 
-def _plain(spoken: Spoken, lead: int) -> tuple[list[str], list[int], list[int]]:
+def _plain(spoken: espeak.Spoken) -> tuple[list[str], list[int], list[int]]:
     """Return labels, their edges (one more) and text positions: no gap, no empty phone."""
     labels, starts, positions = [SILENCE], [0], [0]
     ends = [start for _, start, _ in spoken.phones[1:]] + [len(spoken.samples)]
     for (label, start, position), end in zip(spoken.phones, ends, strict=True):
         plain = plain_label(label)
-        switch = label.startswith("(")  # "(en)": from here on in another language
         pause = plain == SILENCE
         joint = pause and end - start < _SHORTEST_PAUSE * spoken.rate
-        if end <= start or switch or joint or (pause and labels[-1] == SILENCE):
+        if end <= start or not plain or joint or (pause and labels[-1] == SILENCE):
             continue  # its time, if any, goes to the phone before
+        if start == 0:
+            labels, starts, positions = [], [], []
         labels.append(plain)
-        starts.append(start + lead)
+        starts.append(start)
         positions.append(position)
-    return labels, [*starts, len(spoken.samples) + lead], positions
+    return labels, [*starts, len(spoken.samples)], positions
 
 
 def _is_stop(label: str) -> bool:

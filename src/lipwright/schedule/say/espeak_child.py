@@ -69,7 +69,7 @@ _Callback = ctypes.CFUNCTYPE(
 )
 
 
-class Refused(Exception):  # noqa: N818 - an answer, not a failure of this program
+class Refused(Exception):
     """What cannot be done: the answer that says so."""
 
     def __init__(self, error: str, **more: Any) -> None:

@@ -13,12 +13,13 @@ import unicodedata
 from bisect import bisect_right
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 from lipwright.errors import TextError
 from lipwright.timeline import Interval, Tier
 
 _TOKENS = re.compile(r"[^\s—–…]+[—–…]*|[—–…]+")
-_AROUND = ".,;:!?…\"'“”„‚‘’«»‹›()[]{}<>¡¿—–-*_~`|。，、！？：；「」『』（）《》・।॥؟،؛"  # noqa: RUF001
+_AROUND = ".,;:!?…\"'“”„‚‘’«»‹›()[]{}<>¡¿—–-*_~`|。，、！？：；「」『』（）《》・।॥؟،؛"
 # Forms of letters that exist for the look of them; a voice knows the plain ones.
 _LOOKS = ("<font>", "<wide>", "<narrow>", "<isolated>", "<initial>", "<medial>", "<final>")
 _LIGATURES = range(0xFB00, 0xFB07)
@@ -132,13 +133,15 @@ def _speakable(token: str) -> str:
         if character in _JOINERS:
             joins = script_of(before) and script_of(after)
             kept.append(character if joins else "")
-        elif category in ("Cc", "Cf", "Cs", "Cn", "Me") or 0xFE00 <= ord(character) <= 0xFE0F:
-            continue
-        elif category in ("So", "Sk") and ord(character) >= _FIRST_PICTURE:
-            continue
-        else:
+        elif not _is_dropped(character, category):
             kept.append(_without_looks(character))
     return "".join(kept)
+
+
+def _is_dropped(character: str, category: str) -> bool:
+    picture = category in ("So", "Sk") and ord(character) >= _FIRST_PICTURE
+    selects_a_look = 0xFE00 <= ord(character) <= 0xFE0F
+    return picture or selects_a_look or category in ("Cc", "Cf", "Cs", "Cn", "Me")
 
 
 def _without_looks(character: str) -> str:
@@ -205,9 +208,7 @@ def _share(words: list[str], phones: list[TimedPhone]) -> list[Interval]:
     if len(phones) < len(words):
         start, length = phones[0].start, phones[-1].end - phones[0].start
         edges = [start + length * sum(letters[:n]) / total for n in range(len(words) + 1)]
-        return [
-            Interval(word, a, b) for word, a, b in zip(words, edges, edges[1:], strict=False)
-        ]
+        return [Interval(word, a, b) for word, (a, b) in zip(words, pairwise(edges), strict=True)]
     cuts = [0]
     for n in range(1, len(words)):
         wanted = round(len(phones) * sum(letters[:n]) / total)
@@ -215,5 +216,5 @@ def _share(words: list[str], phones: list[TimedPhone]) -> list[Interval]:
     cuts.append(len(phones))
     return [
         Interval(word, phones[a].start, phones[b - 1].end)
-        for word, a, b in zip(words, cuts, cuts[1:], strict=False)
+        for word, (a, b) in zip(words, pairwise(cuts), strict=True)
     ]

@@ -1,0 +1,66 @@
+"""The skin's colours per vertex: lips, the dark of the mouth, nostrils, and a little blood."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lipwright.character.head.lids import RIM as LID_RIM
+from lipwright.character.head.lips import CONTACT, RED
+from lipwright.character.head.skin import Skin
+
+Floats = NDArray[np.float64]
+
+_LIP = np.array([0.78, 0.44, 0.44])
+# Loops behind the contact: the mouth's lining, ever darker, as no light comes there.
+_LINING = np.array(
+    [
+        [0.62, 0.30, 0.30],
+        [0.55, 0.23, 0.23],
+        [0.42, 0.14, 0.14],
+        [0.20, 0.060, 0.060],
+        [0.13, 0.036, 0.036],
+        [0.085, 0.022, 0.022],
+        [0.045, 0.011, 0.011],
+        [0.020, 0.005, 0.005],
+    ]
+)
+_BLUSH = (  # x, y, radius (mm), strength
+    (40.0, -30.0, 17.0, 0.16),
+    (0.0, -38.0, 11.0, 0.14),
+    (13.0, -41.0, 6.0, 0.12),
+    (0.0, -99.0, 13.0, 0.07),
+)
+
+
+def paint_skin(skin: Skin) -> Floats:
+    """Return each vertex's colour, to be multiplied with the material's: (V, 3), linear."""
+    x, y = np.abs(skin.points[:, 0]) * 1e3, skin.points[:, 1] * 1e3
+    ahead = np.clip(skin.points[:, 2] / 0.03, 0.0, 1.0)
+    colors = np.ones_like(skin.points)
+    for across, height, radius, strength in _BLUSH:
+        share = strength * ahead * np.exp(-((x - across) ** 2 + (y - height) ** 2) / radius**2)
+        colors *= 1.0 - share[:, None] * np.array([0.15, 1.0, 0.85])
+    nostril = np.exp(-(((x - 6.6) / 2.6) ** 2) - ((y + 45.0) / 1.7) ** 2) * ahead
+    colors *= 1.0 - nostril[:, None] * np.array([0.72, 0.82, 0.82])
+    _paint_lips(skin, colors)
+    for loops in skin.eyes:
+        colors[loops[LID_RIM]] *= (0.90, 0.82, 0.82)
+        colors[loops[LID_RIM + 1]] *= (0.62, 0.46, 0.44)
+        colors[loops[LID_RIM + 2]] *= (0.30, 0.17, 0.15)
+        colors[loops[LID_RIM + 3]] *= (0.50, 0.25, 0.22)
+    return colors
+
+
+def _paint_lips(skin: Skin, colors: Floats) -> None:
+    count = skin.mouth.shape[1]
+    middle = np.abs(np.cos(2 * np.pi * np.arange(count) / count))
+    paling = (0.15 + 0.85 * np.clip(middle / 0.35, 0.0, 1.0))[:, None]
+    for number in range(RED + 1, CONTACT + 2):
+        share = (0.6, 1.0, 1.0, 1.0)[number - RED - 1]
+        colors[skin.mouth[number]] *= 1.0 - share * paling * (1.0 - _LIP)
+    colors[skin.mouth[CONTACT + 1]] *= 0.80
+    for number, lining in enumerate(_LINING):
+        colors[skin.mouth[CONTACT + 2 + number]] = lining
+    end = np.argmin(np.abs(skin.points - (0.0, -0.074, 0.017)).sum(axis=1))
+    colors[end] = _LINING[-1]

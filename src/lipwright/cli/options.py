@@ -1,0 +1,83 @@
+"""Options that several commands share, so that they read and behave alike."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import click
+
+Command = Callable[..., Any]
+
+
+def stack(*options: Callable[[Command], Command]) -> Callable[[Command], Command]:
+    """Return one decorator for several options, in the order of ``--help``."""
+
+    def decorate(command: Command) -> Command:
+        for option in reversed(options):
+            command = option(command)
+        return command
+
+    return decorate
+
+
+def outputs(help: str) -> Callable[[Command], Command]:
+    """``-o``, several times."""
+    return click.option(
+        "-o", "--output", "outputs", multiple=True, required=True, metavar="FILE", help=help
+    )
+
+
+animation = stack(
+    click.option(
+        "--engine", type=click.Choice(["bigram"]), default="bigram", show_default=True,
+        help="What drives the mouth.",
+    ),
+    click.option(
+        "--set", "bigram_set", default="english", show_default=True, metavar="SET",
+        help="Bigram set: a name, or a .json file.",
+    ),
+    click.option(
+        "--preset", default="default", show_default=True,
+        help="The set's settings: default, published, or one of its own.",
+    ),
+    click.option(
+        "--overrides", type=click.Path(path_type=Path), metavar="FILE",
+        help="A file that changes single bigrams, gains or settings.",
+    ),
+    click.option(
+        "--character", default="head", show_default=True, metavar="MODEL",
+        help="head, or a .glb, .vrm or .gltf file.",
+    ),
+    click.option(
+        "--mapping", type=click.Path(path_type=Path), metavar="FILE",
+        help="A mapping file for the character, see 'character inspect'.",
+    ),
+    click.option(
+        "--rate", "frame_rate", type=float, default=60.0, show_default=True, metavar="FPS",
+        help="Frames per second.",
+    ),
+)  # fmt: skip
+
+recording = stack(
+    click.argument("sound", metavar="SOUND"),
+    click.option("--text", metavar="WORDS", help="What is said in it."),
+    click.option(
+        "--text-file", type=click.Path(path_type=Path), metavar="FILE",
+        help="A file with what is said in it.",
+    ),
+    click.option(
+        "--labels", type=click.Path(path_type=Path), metavar="FILE",
+        help="Phone times that exist: .TextGrid .lab .ctm .phn .json",
+    ),
+    click.option(
+        "--phone-set", metavar="NAME", help="The notation of the labels, where it is not clear."
+    ),
+    click.option(
+        "--lexicon", type=click.Path(path_type=Path), metavar="FILE",
+        help="Pronunciations of unusual words: WORD  P R OH N",
+    ),
+)  # fmt: skip
+
+as_json = click.option("--json", "as_json", is_flag=True, help="Answer for a program to read.")

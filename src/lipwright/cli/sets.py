@@ -1,0 +1,177 @@
+"""``set coverage``, ``set show`` and ``set why``: look into bigram sets."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from lipwright.cli import options
+from lipwright.errors import InputError
+
+if TYPE_CHECKING:
+    from lipwright.curves import Keys
+    from lipwright.engines.bigram.coverage import Coverage
+    from lipwright.engines.bigram.why import Explanation
+    from lipwright.phones import PhoneTrack
+
+COLUMNS = 48
+BLOCKS = " ▁▂▃▄▅▆▇█"
+SEEN = 0.005
+
+
+@click.group(name="set")
+def bigram_set() -> None:
+    """Look into bigram sets."""
+
+
+@bigram_set.command()
+@click.argument("name", metavar="[SET]", default="english")
+@click.option("--text", metavar="WORDS", help="Count the pairs that this text needs.")
+@click.option("--text-file", type=click.Path(path_type=Path), metavar="FILE", help="The same.")
+@click.option("--voice", default="en-us", show_default=True, help="Who says the text.")
+@click.option(
+    "--labels", type=click.Path(path_type=Path), multiple=True, metavar="FILE",
+    help="Count the pairs of phone times that exist. May be repeated.",
+)  # fmt: skip
+@options.as_json
+def coverage(
+    name: str,
+    text: str | None,
+    text_file: Path | None,
+    voice: str,
+    labels: tuple[Path, ...],
+    as_json: bool,
+) -> None:
+    """Say which pairs SET has, and which ones lines need that it lacks."""
+    from lipwright.cli.speak import _read_text
+    from lipwright.engines.bigram.coverage import coverage as count
+    from lipwright.engines.bigram.set_file import load_set
+
+    if text_file is not None:
+        text = _read_text(text_file)
+    lines = _lines(text, voice, labels)
+    found = count(load_set(name), lines)
+    if as_json:
+        click.echo(json.dumps(_facts(found)))
+    else:
+        click.echo(_coverage_text(name, found, of_lines=lines is not None))
+
+
+def _lines(text: str | None, voice: str, labels: tuple[Path, ...]) -> list[PhoneTrack] | None:
+    from lipwright import pipeline
+
+    lines = [pipeline.from_labels(path).phones for path in labels]
+    if text is not None:
+        lines.append(pipeline.say(text, voice=voice).phones)
+    return lines or None
+
+
+def _facts(found: Coverage) -> dict[str, object]:
+    return {
+        "share": found.share,
+        "needed": {"-".join(pair): count for pair, count in found.needed.items()},
+        "missing": ["-".join(pair) for pair in found.missing],
+        "without_single_curve": list(found.bare),
+    }
+
+
+def _coverage_text(name: str, found: Coverage, *, of_lines: bool) -> str:
+    needed, missing = len(found.needed), len(found.missing)
+    lines = [f"{name}: {needed - missing} of {needed} pairs, {found.share:.1%} by frequency"]
+    if of_lines:
+        lines.append("most frequent: " + _pairs(found, list(found.needed)[:12]))
+    if found.missing:
+        lines.append("missing, made from single phones: " + _pairs(found, list(found.missing[:40])))
+    if found.bare:
+        lines.append(f"no single-phone curve either: {' '.join(found.bare)}")
+    return "\n".join(lines)
+
+
+def _pairs(found: Coverage, pairs: list[tuple[str, str]]) -> str:
+    return "  ".join(f"{a}-{b} {found.needed[a, b]}" for a, b in pairs)
+
+
+@bigram_set.command()
+@click.argument("pair", metavar="PAIR")
+@click.option("--set", "name", default="english", show_default=True, metavar="SET")
+@options.as_json
+def show(pair: str, name: str, as_json: bool) -> None:
+    """Draw the curves of a PAIR, such as f-ah, over its 0..1."""
+    from lipwright.engines.bigram.set_file import load_set
+    from lipwright.engines.bigram.stand_in import stand_in
+    from lipwright.phones import load_phone_set
+
+    of = load_set(name)
+    labels = tuple(pair.split("-"))
+    known = load_phone_set(of.phone_set).labels
+    if len(labels) != 2 or any(label not in known for label in labels):
+        raise InputError(
+            f"{pair!r} is no pair of {name!r}",
+            expected=f"two of {' '.join(known)}, such as f-ah",
+        )
+    key = (labels[0], labels[1])
+    bigram = of.bigrams.get(key) or stand_in(of, key)
+    if as_json:
+        curves = {pose: keys.pairs() for pose, keys in bigram.curves.items()}
+        facts = {"pair": labels, "word": bigram.word, "source": bigram.source, "curves": curves}
+        click.echo(json.dumps(facts))
+        return
+    word = f", as in {bigram.word!r}" if bigram.word else ""
+    click.echo(f"{pair} ({bigram.source}{word}), boundary at {bigram.boundary:g}")
+    for pose, keys in bigram.curves.items():
+        drawn = "  ".join(f"{t:g},{v:g}" for t, v in keys.pairs())
+        click.echo(f"  {pose:<7}{_chart(keys)}  {drawn}")
+
+
+def _chart(keys: Keys) -> str:
+    import numpy as np
+
+    values = keys.at((np.arange(COLUMNS) + 0.5) / COLUMNS)
+    return "".join(BLOCKS[round(float(value) * (len(BLOCKS) - 1))] for value in values)
+
+
+@bigram_set.command()
+@click.argument("line", type=click.Path(path_type=Path), metavar="LINE.json")
+@click.option("--time", type=float, required=True, metavar="SECONDS", help="The instant.")
+@click.option("--control", metavar="NAME", help="Only this control.")
+@click.option(
+    "--overrides", type=click.Path(path_type=Path), metavar="FILE",
+    help="The overrides that the line was made with.",
+)  # fmt: skip
+@options.as_json
+def why(
+    line: Path, time: float, control: str | None, overrides: Path | None, as_json: bool
+) -> None:
+    """Say why the controls of an animation have their values at an instant."""
+    from lipwright.animation import Animation
+    from lipwright.engines.bigram.why import why as explain
+    from lipwright.pipeline import bigram_engine
+
+    animation = Animation.load(line)
+    if animation.engine != "bigram":
+        raise InputError(
+            f"made by the engine {animation.engine!r}",
+            where=str(line),
+            expected="an animation of the bigram engine",
+        )
+    name, preset = animation.report.get("set", "english"), animation.report.get("preset", "default")
+    engine = bigram_engine(str(name), str(preset), str(overrides) if overrides else None)
+    solved = engine.solve(animation.phones)
+    names = [control] if control else list(animation.controls)
+    found = [explain(engine, solved, name, time) for name in names]
+    if not control:
+        found = [one for one in found if one.value > SEEN or one.origins]
+    _tell(found, time, as_json)
+
+
+def _tell(found: list[Explanation], time: float, as_json: bool) -> None:
+    if as_json:
+        click.echo(json.dumps([asdict(one) for one in found]))
+    elif not found:
+        click.echo(f"at {time:g} s every control is at rest")
+    else:
+        click.echo("\n".join(one.text() for one in found))

@@ -1,0 +1,185 @@
+"""The whole flow, on one screen (DESIGN section 1).
+
+text, sound or labels → :class:`Speech` → engine → :class:`Animation` → character →
+files. Anything the command line does is one call here. Schedules, engines, characters
+and exporters do not know each other; they meet in this module.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import cache, partial
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from lipwright.errors import InputError
+from lipwright.performance import Performance, RiggedModel
+from lipwright.sound import Sound
+from lipwright.speech import Speech
+
+if TYPE_CHECKING:
+    from lipwright.animation import Animation
+    from lipwright.engines.bigram import BigramEngine
+
+Progress = Callable[[float], None]
+
+
+def say(
+    text: str, *, voice: str = "en-us", rate: float = 175.0, pitch: float | None = None
+) -> Speech:
+    """Return typed text as speech: sound, words and phones.
+
+    Parameters
+    ----------
+    text : str
+        What to say.
+    voice : str
+        A language or voice of espeak-ng (``"en-us"``, ``"de"``, ``"cmn"``), or
+        ``"festival"``.
+    rate : float
+        Words per minute, 80 to 450.
+    pitch : float, optional
+        0..99.
+
+    Raises
+    ------
+    TextError
+        If there is nothing to say, or the voice is unknown.
+    MissingExtraError
+        If the extra ``tts`` is not installed.
+    """
+    from lipwright.schedule.say import say as speak
+
+    return speak(text, voice=voice, rate=rate, pitch=pitch)
+
+
+def align(
+    sound: Sound | str | Path,
+    text: str,
+    *,
+    lexicon: str | Path | None = None,
+    progress: Progress | None = None,
+) -> Speech:
+    """Return a recording with its words and phones in time, the words being known.
+
+    Parameters
+    ----------
+    sound : Sound or path
+    text : str
+        What is said in it, in English.
+    lexicon : path, optional
+        Pronunciations of words that no dictionary has, in the CMU dictionary's form.
+    progress : function, optional
+        Called with the share that is done, 0..1.
+
+    Raises
+    ------
+    SoundError, TextError
+        If either cannot be used.
+    """
+    from lipwright.schedule.align import align as find
+
+    path = Path(lexicon) if lexicon is not None else None
+    return find(_sound(sound), text, lexicon=path, progress=progress)
+
+
+def recognise(sound: Sound | str | Path, *, progress: Progress | None = None) -> Speech:
+    """Return a recording with words and phones in time, the words being unknown."""
+    from lipwright.schedule.recognise import recognise as listen
+
+    return listen(_sound(sound), progress=progress)
+
+
+def from_labels(
+    labels: str | Path, sound: Sound | str | Path | None = None, *, phone_set: str | None = None
+) -> Speech:
+    """Return speech from labels that others made (TextGrid, .lab, .ctm, .phn, JSON)."""
+    from lipwright.schedule.labels import speech_from_labels
+
+    heard = _sound(sound) if sound is not None else None
+    return speech_from_labels(Path(labels), heard, phone_set=phone_set)
+
+
+def _sound(sound: Sound | str | Path) -> Sound:
+    if isinstance(sound, Sound):
+        return sound
+    from lipwright.sound_files import read_sound
+
+    return read_sound(sound)
+
+
+def animate(
+    speech: Speech,
+    *,
+    engine: str = "bigram",
+    bigram_set: str | Path = "english",
+    preset: str = "default",
+    overrides: str | Path | None = None,
+    character: str | Path = "head",
+    mapping: str | Path | None = None,
+    rate: float = 60.0,
+) -> Performance:
+    """Return a line animated on a character.
+
+    Parameters
+    ----------
+    speech : Speech
+        From :func:`say`, :func:`align`, :func:`recognise` or :func:`from_labels`.
+    engine : str
+        ``"bigram"``.
+    bigram_set : str or path
+        A set that comes with Lipwright, or a file.
+    preset : str
+        ``"default"``, ``"published"``, or one that the set brings.
+    overrides : path, optional
+        A file that changes single bigrams, gains or settings of the set.
+    character : str or path
+        ``"head"``, or a GLB, VRM or glTF file.
+    mapping : path, optional
+        A mapping file to use for the character instead of the one found.
+    rate : float
+        Frames per second.
+
+    Raises
+    ------
+    InputError
+        If a part of it is unknown or broken.
+    """
+    if engine != "bigram":
+        raise InputError(f"no engine {engine!r}", expected="bigram")
+    made = bigram_engine(str(bigram_set), preset, str(overrides) if overrides else None)
+    animation = made.animate(speech, rate)
+    return Performance(animation, speech, partial(_rig, animation, character, mapping))
+
+
+@cache
+def bigram_engine(
+    bigram_set: str = "english", preset: str = "default", overrides: str | None = None
+) -> BigramEngine:
+    """Return the engine for a set; made once, it serves any number of lines."""
+    from lipwright.engines.bigram import BigramEngine, load_set, read_overrides
+
+    base = load_set(bigram_set)
+    return BigramEngine(read_overrides(overrides, base) if overrides else base, preset)
+
+
+def _rig(animation: Animation, character: str | Path, mapping: str | Path | None) -> RiggedModel:
+    from lipwright.character import load_character
+
+    loaded = load_character(character, mapping=Path(mapping) if mapping else None)
+    return loaded.rig(animation)
+
+
+def save(performance: Performance, *paths: str | Path) -> None:
+    """Write a performance, each path in the format of its suffix; all or nothing.
+
+    Raises
+    ------
+    InputError
+        If a suffix is unknown.
+    OutputError
+        If a file cannot be written.
+    """
+    from lipwright.export import save as write
+
+    write(performance, *paths)
