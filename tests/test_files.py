@@ -5,6 +5,7 @@ import io
 import os
 import stat
 import sys
+import tempfile
 import threading
 from collections.abc import Callable
 from pathlib import Path
@@ -59,7 +60,7 @@ def _interrupted(*_: object) -> None:
     [
         ((os, "fsync"), _full, OutputError, r"a\.json: the disk is full\. Free some space"),
         ((Path, "replace"), _full, OutputError, r"a\.json: the disk is full"),
-        ((files.tempfile, "mkstemp"), _full, OutputError, r"a\.json: the disk is full"),
+        ((tempfile, "mkstemp"), _full, OutputError, r"a\.json: the disk is full"),
         ((os, "fsync"), _interrupted, KeyboardInterrupt, None),
     ],
 )

@@ -13,12 +13,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from lipwright.errors import InputError
-from lipwright.performance import Performance, RiggedModel
+from lipwright.performance import Performance
 from lipwright.sound import Sound
 from lipwright.speech import Speech
 
 if TYPE_CHECKING:
-    from lipwright.animation import Animation
     from lipwright.engines.bigram import BigramEngine
 
 Progress = Callable[[float], None]
@@ -145,11 +144,16 @@ def animate(
     InputError
         If a part of it is unknown or broken.
     """
+    from lipwright.character import BUILT_IN, load_character
+
     if engine != "bigram":
         raise InputError(f"no engine {engine!r}", expected="bigram")
     made = bigram_engine(str(bigram_set), preset, str(overrides) if overrides else None)
     animation = made.animate(speech, rate)
-    return Performance(animation, speech, partial(_rig, animation, character, mapping))
+    actor = load_character(character, mapping)
+    if actor.name not in BUILT_IN:  # a built-in one fits, and is made only when it is shown
+        actor.check(animation.controls)
+    return Performance(animation, speech, partial(actor.rig, animation))
 
 
 @cache
@@ -161,13 +165,6 @@ def bigram_engine(
 
     base = load_set(bigram_set)
     return BigramEngine(read_overrides(overrides, base) if overrides else base, preset)
-
-
-def _rig(animation: Animation, character: str | Path, mapping: str | Path | None) -> RiggedModel:
-    from lipwright.character import load_character
-
-    loaded = load_character(character, mapping=Path(mapping) if mapping else None)
-    return loaded.rig(animation)
 
 
 def save(performance: Performance, *paths: str | Path) -> None:

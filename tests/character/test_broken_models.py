@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
 import copy
 from collections.abc import Iterator
 from typing import Any
@@ -39,14 +38,13 @@ def places(value: Any, path: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ...]]:
 
 def use(data: bytes) -> str:
     """Do what making a character of a file does, and read all of it; return the error."""
-    with contextlib.suppress(MemoryError):
-        try:
-            made = parse_glb(data)
-            fit(read_rig(made))
-            for index in range(len(made.items("accessors"))):
-                read_accessor(made, index)
-        except InputError as error:
-            return str(error)
+    try:
+        made = parse_glb(data)
+        fit(read_rig(made))
+        for index in range(len(made.items("accessors"))):
+            read_accessor(made, index)
+    except InputError as error:
+        return str(error)
     return ""
 
 

@@ -196,6 +196,7 @@ def document(**changes: Any) -> dict[str, Any]:
         (json.dumps(document(format="lipwright/animation")), "expected a file of format"),
         (json.dumps(document(colour=1)), "unknown field `colour`"),
         (json.dumps(document(controls={"open": {"jawOpen": "1"}})), r"at controls\[...\]\[...\]"),
+        (json.dumps(document()).replace(": 1}}", ": 1e999}}"), "the number 1e999; expected finite"),
         (json.dumps(document(gains={"open": -1})), r"gains.open: the gain -1.0; expected 0 or"),
         (json.dumps(document(limits={"jawOpen": [1, 0]})), "limits.jawOpen: the limits 1.0 to 0"),
         ('{"format": "lipwright/mapping", "gains": {"open": NaN}}', "the number NaN"),

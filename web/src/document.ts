@@ -19,6 +19,8 @@ export interface Content {
   phones: Row[];
   words: Row[];
   model: string;
+  /** Whether the model looks along -z, as those of VRM 0 do. */
+  backwards: boolean;
   channels: { names: string[]; rate: number; start: number; frames: number[][] };
 }
 

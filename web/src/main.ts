@@ -48,7 +48,7 @@ watch();
 
 async function load(): Promise<Parts> {
   try {
-    const loaded = await loadModel(fromBase64(block("model")));
+    const loaded = await loadModel(fromBase64(block("model")), performed.content.backwards);
     const highest = peaks(performed.channels);
     const used = performed.channels.names.filter((_, index) => highest[index] > 0);
     const made = new Stage(element<HTMLCanvasElement>("head"), loaded, used);

@@ -64,9 +64,8 @@ export class Model {
   }
 }
 
-export async function loadModel(glb: ArrayBuffer): Promise<Model> {
+export async function loadModel(glb: ArrayBuffer, backwards: boolean): Promise<Model> {
   const file = await new GLTFLoader().parseAsync(glb, "");
-  const extensions = (file.parser.json as { extensions?: Record<string, unknown> }).extensions;
-  if (extensions?.VRM) file.scene.rotation.y = Math.PI;
+  if (backwards) file.scene.rotation.y = Math.PI;
   return new Model(file.scene);
 }

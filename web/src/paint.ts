@@ -167,10 +167,10 @@ function cell(
   }
   line(context, left, row.top, row.top + row.height, ink.line);
   line(context, left + wide, row.top, row.top + row.height, ink.line);
-  context.font = `${fill ? 600 : 400} 11.5px ${ink.font}`;
+  context.font = `${scale.width < 480 ? 10 : 11.5}px ${ink.font}`;
   context.textBaseline = "middle";
   context.textAlign = "center";
-  if (context.measureText(span.label).width > wide - 6) return;
+  if (context.measureText(span.label).width > wide - 4) return;
   context.globalAlpha = span.label === "sil" ? 0.5 : 1;
   context.fillStyle = text;
   const from = Math.max(left, 0);
@@ -197,9 +197,13 @@ function curve(context: Context, scene: Scene, row: Row, index: number): void {
   const { colour, dash } = stroke(index, ink.dark);
   const highlighted = shown.highlighted === index;
   context.beginPath();
+  const raw = (at: number) => controls.values[Math.min(Math.max(at, 0), last) * width + index];
   for (let at = first; at <= end; at++) {
-    const value = Math.min(Math.max(controls.values[at * width + index], 0), 1.05);
-    context.lineTo(
+    // Where it rests at zero it is left out: the curves there would only hide each other.
+    if (raw(at - 1) === 0 && raw(at) === 0 && raw(at + 1) === 0) continue;
+    const value = Math.min(Math.max(raw(at), 0), 1.05);
+    const begins = raw(at) === 0 && raw(at - 1) === 0;
+    context[begins ? "moveTo" : "lineTo"](
       scale.x(controls.start + at / controls.rate),
       row.top + (1 - value) * row.height,
     );

@@ -1,27 +1,17 @@
 /**
- * Seven colours that stay apart in protanopia, deuteranopia and tritanopia, and stand out from the
- * page (contrast 3:1 or more, both held by a test); further curves repeat them with dashes.
+ * Nine colours that stay apart in protanopia, deuteranopia and tritanopia, and stand out from the
+ * page (contrast 3:1 or more); both are held by a test. Further curves repeat them with dashes.
  */
 
+// prettier-ignore
 export const ON_LIGHT = [
-  "#908712",
-  "#1d45c1",
-  "#4889fc",
-  "#273e06",
-  "#5c0262",
-  "#e154a8",
-  "#91485d",
+  "#cd6d14", "#1850c9", "#3c928f", "#bf2c43", "#906ff1", "#804d89", "#7e160d", "#041888", "#48184c",
 ];
+// prettier-ignore
 export const ON_DARK = [
-  "#fbe43c",
-  "#1973ea",
-  "#94f9fd",
-  "#14c877",
-  "#bea7f5",
-  "#b52b80",
-  "#907c0f",
+  "#f4b090", "#1a74eb", "#53e8f0", "#ec6ca0", "#9b98f3", "#d1fd73", "#a75307", "#a8980a", "#8b569d",
 ];
-const DASHES = [[], [6, 3], [2, 2.5], [9, 3, 2, 3]];
+const DASHES = [[], [6, 3], [2, 2.5], [9, 3, 2, 3], [14, 5], [1, 5]];
 
 export interface Stroke {
   colour: string;

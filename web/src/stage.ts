@@ -157,7 +157,7 @@ export class Stage {
     this.#scene.add(new HemisphereLight(0xe3e9f2, 0x7a6458, 0.95));
     this.#lamp(0xf2f4ff, 0.35, [-1.2, 0.1, 1]);
     const key = this.#lamp(0xfff0e0, 1.9, [0.8, 0.9, 1.4]);
-    const rim = this.#lamp(0xdbe7ff, 1.2, [-1.1, 0.7, -1.3]);
+    const rim = this.#lamp(0xdbe7ff, 1.3, [-1.3, 0.3, -1]);
     this.#castShadow(key, 2048);
     this.#castShadow(rim, 1024);
   }

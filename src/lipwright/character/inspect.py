@@ -89,7 +89,7 @@ def _row(name: str, fitted: FittedControl, gain: float) -> list[str]:
     lacks = [f"lacks {', '.join(fitted.missing)}"] if fitted.missing else []
     remarks = [*lacks, fitted.note] if fitted.note and fitted.status != EXACT else lacks
     if fitted.status == MISSING and not remarks:
-        remarks = ["nothing of it on this model"]
+        remarks = ["kept still by the mapping"]
     for remark in remarks:
         lines += _wrapped(" " * len(head), f"({remark})")
     return lines

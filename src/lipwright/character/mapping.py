@@ -8,7 +8,6 @@ rig; :mod:`lipwright.character.fitting` finds these names on a rig.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping as MappingType
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -116,18 +115,7 @@ def read_mapping(path: str | Path) -> Mapping:
     """
     document = read_document(path, format=FORMAT, version=VERSION)
     read = convert(document, _Document, str(path))
-    for control, gain in read.gains.items():
-        if not (math.isfinite(gain) and gain >= 0):
-            raise FileFormatError(
-                f"the gain {gain}", where=f"{path}, at gains.{control}", expected="0 or more"
-            )
-    for channel, (low, high) in read.limits.items():
-        if not (math.isfinite(low) and math.isfinite(high) and low <= high):
-            raise FileFormatError(
-                f"the limits {low} to {high}",
-                where=f"{path}, at limits.{channel}",
-                expected="the lower one first",
-            )
+    _check(read, str(path))
     return Mapping(
         read.name,
         read.controls,
@@ -138,6 +126,21 @@ def read_mapping(path: str | Path) -> Mapping:
         read.notes,
         read.about,
     )
+
+
+def _check(read: _Document, path: str) -> None:
+    for control, gain in read.gains.items():
+        if gain < 0:
+            raise FileFormatError(
+                f"the gain {gain}", where=f"{path}, at gains.{control}", expected="0 or more"
+            )
+    for channel, (low, high) in read.limits.items():
+        if low > high:
+            raise FileFormatError(
+                f"the limits {low} to {high}",
+                where=f"{path}, at limits.{channel}",
+                expected="the lower one first",
+            )
 
 
 def _row(row: MappingType[str, float]) -> str:

@@ -11,6 +11,7 @@ sound starts.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -50,29 +51,26 @@ def encode(performance: Performance) -> bytes:
             f"no morph target of it is moved by {', '.join(channels.controls[:8])}",
             where=rigged.name,
         )
+    writer = GltfWriter(model)
+    _add_animation(writer, moved, channels)
+    return writer.finish().to_glb()
+
+
+def _add_animation(writer: GltfWriter, moved: Sequence[MorphMesh], channels: Animation) -> None:
     frames = _needed(channels.values)
     sound_start = max(0.0, -channels.start)
-    writer = GltfWriter(model)
     times = (channels.times[frames] + sound_start).astype(np.float32)
     clock = writer.accessor(times, limits=True)
     samplers: list[dict[str, Any]] = []
     targets: list[dict[str, Any]] = []
     for mesh in moved:
         for node, rest in zip(mesh.nodes, mesh.weights, strict=True):
-            weights = _weights(mesh, rest, channels)[frames]
-            output = writer.accessor(weights.ravel())
+            output = writer.accessor(_weights(mesh, rest, channels)[frames].ravel())
             targets.append({"sampler": len(samplers), "target": {"node": node, "path": "weights"}})
             samplers.append({"input": clock, "interpolation": "LINEAR", "output": output})
-    writer.add(
-        "animations",
-        {
-            "name": "Lipwright",
-            "channels": targets,
-            "samplers": samplers,
-            "extras": {"lipwright": _extras(channels, sound_start)},
-        },
-    )
-    return writer.finish().to_glb()
+    animation = {"name": "Lipwright", "channels": targets, "samplers": samplers}
+    extras = {"lipwright": _extras(channels, sound_start)}
+    writer.add("animations", {**animation, "extras": extras})
 
 
 def _needed(values: NDArray[np.float32]) -> NDArray[np.intp]:

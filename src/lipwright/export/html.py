@@ -4,17 +4,16 @@ It holds the player (the client in ``web/``, built into ``player.html`` beside t
 the animation, the model and the sound. It asks for nothing else: no server, no network.
 
 Lossy: frames are rounded to four decimals, sound is 16 bit (of at most 48 kHz; 24 kHz when
-longer than two minutes), the curves' keys are left out. What the animation has to report is
+longer than two minutes), the curves' keys are left out, and so are the model's morph targets
+that this line does not move. What the animation has to report is
 in the page, to be read there.
 """
 
 from __future__ import annotations
 
 import base64
-import io
 import json
-import struct
-import wave
+from collections.abc import Collection
 from importlib import resources
 from typing import Any
 
@@ -23,11 +22,12 @@ from numpy.typing import NDArray
 
 from lipwright.animation import Animation
 from lipwright.errors import CharacterError, LipwrightError
-from lipwright.performance import Performance, RiggedModel
+from lipwright.gltf import Gltf, keep_morphs, morph_meshes, parse_glb
+from lipwright.performance import Performance
 from lipwright.sound import Sound
 from lipwright.timeline import Tier
 
-SUFFIXES = (".html", ".htm")
+SUFFIXES = (".html",)
 
 _PLACE = "<!-- lipwright:data -->"
 _DIGITS = 4
@@ -35,6 +35,8 @@ _LONG = 120.0
 # The rates that every browser has to play (Web Audio API, AudioBuffer).
 _LOWEST_RATE, _HIGHEST_RATE, _LONG_RATE = 8_000, 48_000, 24_000
 _COMPRESSIONS = ("KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_texture_basisu")
+# The page lets the eyes blink of themselves.
+_LIDS = ("eyeBlinkLeft", "eyeBlinkRight")
 
 
 def encode(performance: Performance) -> bytes:
@@ -53,20 +55,29 @@ def encode(performance: Performance) -> bytes:
     Raises
     ------
     CharacterError
-        If the model needs what no page can give: other files, or a decoder of its own.
+        If the model is broken, or needs a decoder that the page has not.
     LipwrightError
         If the player has not been built.
     """
     before, after = _player()
-    model = performance.rig()
-    _check(model)
+    rigged = performance.rig()
+    channels = _moving(rigged.channels)
+    model = parse_glb(rigged.glb, rigged.name)
+    content = {
+        **_content(performance),
+        "model": rigged.name,
+        "backwards": "VRM" in model.json.get("extensions", {}),
+        "channels": _channels(channels),
+    }
+    glb = _light(model, channels.controls).to_glb()
     blocks = [
-        _block("performance", "application/json", _json(_content(performance, model))),
-        _block("model", "model/gltf-binary;base64", _base64(model.glb)),
+        _block("performance", "application/json", _json(content)),
+        _block("model", "model/gltf-binary;base64", _base64(glb)),
     ]
     sound = performance.speech.sound
     if sound is not None and len(sound.samples):
-        blocks.append(_block("sound", "audio/wav;base64", _base64(_wav(sound))))
+        wav = _playable(sound).wav_bytes()
+        blocks.append(_block("sound", "audio/wav;base64", _base64(wav)))
     return "\n".join([before, *blocks, after]).encode()
 
 
@@ -84,7 +95,7 @@ def _player() -> tuple[str, str]:
     return before.rstrip(), after.lstrip()
 
 
-def _content(performance: Performance, model: RiggedModel) -> dict[str, Any]:
+def _content(performance: Performance) -> dict[str, Any]:
     animation, speech = performance.animation, performance.speech
     return {
         "text": speech.text,
@@ -97,19 +108,22 @@ def _content(performance: Performance, model: RiggedModel) -> dict[str, Any]:
         "frames": _frames(animation.values),
         "phones": _rows(animation.phones.tier),
         "words": _rows(animation.words),
-        "model": model.name,
-        "channels": _channels(model.channels),
     }
 
 
-def _channels(channels: Animation) -> dict[str, Any]:
+def _moving(channels: Animation) -> Animation:
     """Return the channels that move or are held: those that stay at zero change nothing."""
     used = np.flatnonzero(np.abs(channels.values).max(axis=0, initial=0.0) > 0)
+    names = tuple(channels.controls[index] for index in used)
+    return Animation(names, channels.values[:, used], channels.rate, channels.start)
+
+
+def _channels(channels: Animation) -> dict[str, Any]:
     return {
-        "names": [channels.controls[index] for index in used],
+        "names": channels.controls,
         "rate": channels.rate,
         "start": channels.start,
-        "frames": _frames(channels.values[:, used]),
+        "frames": _frames(channels.values),
     }
 
 
@@ -136,52 +150,26 @@ def _block(name: str, kind: str, text: str) -> str:
     return f'<script type="{kind}" id="lipwright-{name}">{text}</script>'
 
 
-def _wav(sound: Sound) -> bytes:
-    samples = _playable(sound)
-    scaled = np.clip(np.round(samples.samples * 32767.0), -32768, 32767).astype("<i2")
-    file = io.BytesIO()
-    with wave.open(file, "wb") as writer:
-        writer.setnchannels(1)
-        writer.setsampwidth(2)
-        writer.setframerate(samples.rate)
-        writer.writeframes(scaled.tobytes())
-    return file.getvalue()
-
-
 def _playable(sound: Sound) -> Sound:
     """Return the sound at a rate that browsers play, and that keeps a long page small."""
     highest = _LONG_RATE if sound.duration > _LONG else _HIGHEST_RATE
-    rate = min(max(sound.rate, _LOWEST_RATE), highest)
-    if rate == sound.rate:
-        return sound
-    import soxr
-
-    return Sound(soxr.resample(sound.samples, sound.rate, rate).astype(np.float32), rate)
+    return sound.resampled(min(max(sound.rate, _LOWEST_RATE), highest))
 
 
-def _check(model: RiggedModel) -> None:
-    """Refuse a model that the page could not show."""
-    document = _gltf(model.glb)
-    needed = [name for name in document.get("extensionsRequired", ()) if name in _COMPRESSIONS]
+def _light(model: Gltf, moved: Collection[str]) -> Gltf:
+    """Return the model with the morph targets that this page can show."""
+    needed = [name for name in model.json.get("extensionsRequired", ()) if name in _COMPRESSIONS]
     if needed:
         raise CharacterError(
             f"its model is compressed ({', '.join(needed)})",
-            where=model.name,
+            where=model.where,
             expected="a GLB that a page can open without a decoder",
             cure="export the model without compression",
         )
-    for part in (*document.get("buffers", ()), *document.get("images", ())):
-        if not part.get("uri", "data:").startswith("data:"):
-            raise CharacterError(
-                f"its model needs another file, {part['uri']!r}",
-                where=model.name,
-                expected="one GLB that holds everything",
-                cure="export the model with its textures embedded",
-            )
-
-
-def _gltf(glb: bytes) -> dict[str, Any]:
-    """Return the JSON of a GLB, which whoever made the model has checked before."""
-    length = struct.unpack_from("<I", glb, 12)[0]
-    document: dict[str, Any] = json.loads(glb[20 : 20 + length])
-    return document
+    held = {
+        name
+        for mesh in morph_meshes(model)
+        for name, weight in zip(mesh.targets, mesh.weights, strict=True)
+        if weight
+    }
+    return keep_morphs(model, {*moved, *_LIDS, *held})

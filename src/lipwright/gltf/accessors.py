@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from lipwright.errors import FileFormatError
-from lipwright.gltf.container import Gltf, structure
+from lipwright.gltf.container import LARGEST, Gltf, structure
 
 COMPONENTS: dict[int, np.dtype[Any]] = {
     5120: np.dtype("<i1"),
@@ -52,7 +52,9 @@ def read_accessor(model: Gltf, index: int) -> NDArray[Any]:
     accessor = accessors[index]
     with structure(where):
         dtype, width = COMPONENTS[accessor["componentType"]], WIDTHS[accessor["type"]]
-        count = int(accessor["count"])
+        count = accessor["count"]
+        if not isinstance(count, int) or not 0 < count < LARGEST:
+            raise FileFormatError(f"holds {count!r} elements", where=where, expected="1 or more")
         if "bufferView" in accessor:
             values = _view(model, accessor, dtype, count, width, where).copy()
         else:

@@ -23,7 +23,7 @@ from lipwright.phones.sets import DATA
 
 _VOWEL_WEIGHTS = (1.5, 0.6, 2.0)  # height, backness, rounding
 _CONSONANT_WEIGHTS = (0.4, 3.0, 2.0, 3.0, 2.0)  # place, closure, sibilant, lateral, rounding
-_FARTHEST_DIPHTHONG = 0.55  # beyond this the two vowels are two sounds
+_FARTHEST_DIPHTHONG = 0.47  # beyond this the two vowels are two sounds
 _LONG, _HALF_LONG, _RHOTIC = "ː", "ˑ", "˞"
 _ROUNDING = "ʷᵝ"
 _STRESS = str.maketrans("", "", "ˈˌ'. -")
@@ -165,6 +165,9 @@ def _class_of(segment: _Segment) -> str:
     features = _features()
     if segment.rhotic:
         return "er"
+    known = load_reduction("ipa").table.get(segment.letter, ())
+    if len(known) == 1 and not _is_vowel(segment):
+        return known[0].label
     letters = features.vowels if _is_vowel(segment) else features.consonants
     return min(
         (_distance(segment, _Segment(letter)), name)

@@ -16,7 +16,7 @@ import msgspec
 
 from lipwright.errors import LabelError
 from lipwright.files import convert, read_document
-from lipwright.phones.sets import DATA, SILENCE
+from lipwright.phones.sets import DATA, SILENCE, load_phone_set
 from lipwright.phones.track import PhoneTrack
 from lipwright.timeline import Interval
 
@@ -76,7 +76,7 @@ class Reduction:
         LabelError
             If neither the table nor the finder knows the label.
         """
-        pieces = self.table.get(label)
+        pieces = self.table.get(label) or self.table.get(self._spelled(label))
         if pieces is not None:
             return pieces, True
         found = self.finder(label) if self.finder is not None else None
@@ -86,6 +86,13 @@ class Reduction:
                 cure="add it to the reduction file",
             )
         return found
+
+    def _spelled(self, label: str) -> str:
+        """The source set's own spelling, where a label is one of its phones."""
+        try:
+            return load_phone_set(self.source).normalise(label)
+        except LabelError:
+            return label
 
     def rows(self, track: PhoneTrack) -> tuple[list[Row], ReductionReport]:
         """Return ``(label, start, end)`` of each phone in the target set, with a report.

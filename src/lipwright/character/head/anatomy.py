@@ -136,14 +136,18 @@ def of_skin(skin: Skin) -> Anatomy:
     around = np.cos(np.pi * np.concatenate([turn, turn[-2:0:-1]]))
     side, near, wide, jaw = (field.copy() for field in (face.side, face.near, face.wide, face.jaw))
     red, flap = np.zeros(len(side)), np.zeros(len(side))
-    reds = np.concatenate([np.zeros(RED + 2), np.linspace(0, 1, CONTACT - RED + 1)[1:], np.ones(len(_FOLLOW))])
+    reds = np.concatenate(
+        [np.zeros(RED + 2), np.linspace(0, 1, CONTACT - RED + 1)[1:], np.ones(len(_FOLLOW))]
+    )
     for number in range(loops):
         ids = skin.mouth[number]
         side[ids] = face.side[ids] * (1 - _ALONG[number]) + around * _ALONG[number]
         jaw[ids] = face.jaw[ids] * (1 - _ALONG[number]) + _lip_jaw(around) * _ALONG[number]
-        red[ids] = reds[number]
         if number > RED:
             near[ids] = wide[ids] = 1.0
+            # At a corner all loops meet in a point and go one way.
+            lip = np.clip(np.abs(around) * 3.0, 0.0, 1.0)
+            red[ids] = 0.5 + (reds[number] - 0.5) * lip
     for behind, follow in enumerate(_FOLLOW):
         ids = skin.mouth[CONTACT + 2 + behind]
         near[ids] = wide[ids] = follow

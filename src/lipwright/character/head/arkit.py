@@ -113,7 +113,10 @@ def _roll(part: Anatomy, above: bool) -> list[Move]:
 def _shrug(part: Anatomy, above: bool) -> list[Move]:
     lips = upper(part, 0.6) + lower(part, 0.6) * part.red
     if above:
-        return [shift(upper(part, 0.6), y=2.2, z=1.8), shift(lower(part, 0.6) * part.red, y=2.2, z=1.0)]
+        return [
+            shift(upper(part, 0.6), y=2.2, z=1.8),
+            shift(lower(part, 0.6) * part.red, y=2.2, z=1.0),
+        ]
     chin = _hill(part, 0, 0.0, -97.0, 20.0, 12.0)
     whole = np.maximum(lips, lower(part, 0.6))
     return [shift(whole, y=2.4, z=1.4), shift(chin, y=2.5, z=0.6)]
@@ -177,7 +180,9 @@ def _blink(part: Anatomy, side: int) -> list[Move]:
     ]
 
 
-def _brow(part: Anatomy, x: float, radius: float, sides: tuple[int, ...], y: float, inward: float = 0.0) -> list[Move]:
+def _brow(
+    part: Anatomy, x: float, radius: float, sides: tuple[int, ...], y: float, inward: float = 0.0
+) -> list[Move]:
     moves = []
     for side in sides:
         across = (part.points[:, 0] * 1e3 * side - x) / radius

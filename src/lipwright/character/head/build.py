@@ -16,6 +16,7 @@ from lipwright.character.head.lips import CONTACT, RED
 from lipwright.character.head.measure import Landmarks
 from lipwright.character.head.paint import paint_skin
 from lipwright.character.head.poses import POSES
+from lipwright.character.head.shirt import shirt
 from lipwright.character.head.skin import Skin, build_skin
 from lipwright.character.head.teeth import LOWER, UPPER, gums, teeth
 from lipwright.character.head.tongue import tongue
@@ -28,7 +29,8 @@ SKIN = Material("skin", (0.68, 0.41, 0.30, 1.0), 0.55)
 TOOTH = Material("teeth", (0.80, 0.75, 0.66, 1.0), 0.25)
 GUM = Material("gums", (0.42, 0.12, 0.11, 1.0), 0.35)
 TONGUE = Material("tongue", (0.46, 0.14, 0.13, 1.0), 0.4)
-HAIR = Material("hair", (0.085, 0.045, 0.024, 1.0), 0.6)
+HAIR = Material("hair", (0.13, 0.070, 0.038, 1.0), 0.6)
+CLOTH = Material("cloth", (0.06, 0.11, 0.16, 1.0), 0.85, double_sided=True)
 EYE = Material("eyes", (1.0, 1.0, 1.0, 1.0), 0.12)
 
 
@@ -43,15 +45,22 @@ def build_head() -> tuple[Part, ...]:
     parts = [_part("skin", skin.points, skin.triangles, SKIN, of_skin(skin), paint_skin(skin))]
     points, triangles = brows()
     parts.append(_part("brows", points, triangles, HAIR, on_face(points), None))
-    for name, make_plain, material in (("ears", ears, SKIN), ("hair", hair, HAIR)):
-        points, triangles = make_plain()
-        parts.append(_part(name, points, triangles, material, rigid(points), None))
+    points, triangles = ears()
+    parts.append(_part("ears", points, triangles, SKIN, rigid(points), None))
+    points, triangles, colors = hair()
+    parts.append(_part("hair", points, triangles, HAIR, rigid(points), colors))
+    points, triangles = shirt()
+    parts.append(_part("shirt", points, triangles, CLOTH, rigid(points), None))
     for name, row, goes in (("upper", UPPER, 0.0), ("lower", LOWER, 1.0)):
         for kind, make, material in (("teeth", teeth, TOOTH), ("gums", gums, GUM)):
             points, triangles = make(row)
-            parts.append(_part(f"{kind}_{name}", points, triangles, material, rigid(points, goes), None))
+            parts.append(
+                _part(f"{kind}_{name}", points, triangles, material, rigid(points, goes), None)
+            )
     points, triangles, share = tongue()
-    parts.append(_part("tongue", points, triangles, TONGUE, rigid(points, 0.92, tongue=share), None))
+    parts.append(
+        _part("tongue", points, triangles, TONGUE, rigid(points, 0.92, tongue=share), None)
+    )
     for name, side in (("left", 1.0), ("right", -1.0)):
         points, triangles, colors = eyeball(side)
         parts.append(_part(f"eye_{name}", points, triangles, EYE, rigid(points, ball=side), colors))

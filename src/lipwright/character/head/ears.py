@@ -34,20 +34,20 @@ _AROUND = 26
 # rim's back and at its front edge (mm), where the ear runs into the cheek.
 _LOOPS = np.array(
     [
-        [0.60, -12.0, -9.0],
-        [0.88, -4.0, -6.0],
-        [0.99, -0.6, -1.5],
-        [1.00, 1.2, 0.2],
-        [0.93, 2.4, 0.9],
+        [0.60, -14.0, -12.0],
+        [0.88, -4.0, -8.0],
+        [0.99, -0.6, -4.0],
+        [1.00, 1.2, -2.4],
+        [0.93, 2.4, -0.6],
         [0.83, 1.0, 0.6],
         [0.74, -0.2, 0.6],
         [0.60, 1.3, 0.8],
         [0.47, 0.6, -0.4],
-        [0.36, -4.0, -3.5],
-        [0.18, -6.5, -6.0],
+        [0.36, -3.4, -2.8],
+        [0.18, -5.2, -4.6],
     ]
 )
-_PLACE = (0.0692, -0.0135, -0.0105)
+_PLACE = (0.0752, -0.0135, -0.0105)
 _TILT, _STAND_OFF = np.radians(9.0), np.radians(27.0)
 
 
@@ -64,7 +64,7 @@ def ears() -> tuple[Floats, Indices]:
         height = ahead + (back - ahead) * behind
         height = height * (1 - 0.8 * lobe * (share > 0.4) * (share < 1.0))
         layers.append(np.column_stack([flat, height]))
-    local = np.concatenate([*layers, [[*_HOLLOW, -7.0]]]) * 1e-3
+    local = np.concatenate([*layers, [[*_HOLLOW, -5.4]]]) * 1e-3
     points = _placed(local)
     grid = np.arange(len(_LOOPS) * _AROUND).reshape(len(_LOOPS), _AROUND)
     following = np.roll(grid, -1, axis=1)
@@ -74,7 +74,7 @@ def ears() -> tuple[Floats, Indices]:
     left = np.concatenate([*sheets, np.stack([grid[-1], middle, following[-1]], axis=1)])
     return (
         np.concatenate([points, points * (-1.0, 1.0, 1.0)]),
-        np.concatenate([left[:, ::-1], left + len(points)]),
+        np.concatenate([left, left[:, ::-1] + len(points)]),
     )
 
 

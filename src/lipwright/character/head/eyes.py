@@ -10,7 +10,7 @@ from lipwright.character.head.lids import EYE_CENTER, EYE_RADIUS
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
 
-_AROUND = 28
+_AROUND = 24
 _PUPIL = (0.004, 0.004, 0.004)
 _IRIS_INNER = (0.30, 0.17, 0.07)
 _IRIS = (0.115, 0.062, 0.030)
@@ -23,14 +23,12 @@ _RINGS: tuple[tuple[float, tuple[float, float, float], float], ...] = (
     (10.6, _IRIS_INNER, 0.0),
     (15.0, _IRIS_INNER, 0.0),
     (21.0, _IRIS, 0.0),
-    (25.5, _IRIS, 0.0),
-    (27.3, _RIM, 0.0),
-    (29.6, _WHITE, 0.0),
-    (36.0, _WHITE, 0.0),
-    (48.0, _WHITE, 0.0),
-    (62.0, _WHITE, 0.0),
-    (80.0, _PINK, 0.0),
-    (98.0, _PINK, 0.0),
+    (24.6, _IRIS, 0.0),
+    (26.2, _RIM, 0.0),
+    (28.2, _WHITE, 0.0),
+    (40.0, _WHITE, 0.0),
+    (58.0, _WHITE, 0.0),
+    (88.0, _PINK, 0.0),
 )
 
 

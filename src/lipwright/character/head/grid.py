@@ -91,9 +91,7 @@ def half_net() -> Net:
     crown = np.full(angles.shape[1] - 1, grid.size)
     cap = np.stack([crown, grid[0, :-1], grid[0, 1:]], axis=1)
     points = np.concatenate([points, loft(0.0, 0.0)[None]])
-    return Net(
-        points, quads[kept], cap, _half_loop(grid, first_front), _loop(grid, first_front)
-    )
+    return Net(points, quads[kept], cap, _half_loop(grid, first_front), _loop(grid, first_front))
 
 
 def _layout() -> tuple[Floats, Floats]:
@@ -114,9 +112,7 @@ def _layout() -> tuple[Floats, Floats]:
 def _half_loop(grid: Indices, first: int) -> Indices:
     top, bottom = first + _MOUTH_ROWS[0], first + _MOUTH_ROWS[1]
     right = _MOUTH_COLUMNS[1]
-    return np.concatenate(
-        [grid[top, :right], grid[top:bottom, right], grid[bottom, right::-1]]
-    )
+    return np.concatenate([grid[top, :right], grid[top:bottom, right], grid[bottom, right::-1]])
 
 
 def _loop(grid: Indices, first: int) -> Indices:

@@ -14,7 +14,7 @@ EYE_CENTER = np.array([0.0318, 0.0, 0.0655])
 EYE_RADIUS = 0.0128
 _INNER = (0.0158, -0.0022)  # corners of the opening
 _OUTER = (0.0478, 0.0010)
-_UPPER_RISE, _LOWER_FALL = 0.0061, 0.0056
+_UPPER_RISE, _LOWER_FALL = 0.0055, 0.0055
 _SHARES = (0.28, 0.50, 0.68, 0.83)  # of the way from the window's edge to the lid's rim
 FIRST_TURN = 3  # loop vertices from the inner corner to the window's upper inner corner
 RIM = len(_SHARES)  # the lid's front rim, counted from the first loop made here
@@ -26,8 +26,7 @@ def rim_turn(count: int) -> Floats:
 
 
 def opening(count: int) -> tuple[Floats, Floats]:
-    """Return the lids' rim, clockwise from the upper inner side: (n, 2) metres, and its turn.
-    """
+    """Return the lids' rim, clockwise from the upper inner side: (n, 2) metres, and its turn."""
     turn = rim_turn(count)
     along = 0.5 - 0.5 * np.cos(2 * np.pi * turn)
     x = _INNER[0] + (_OUTER[0] - _INNER[0]) * along
@@ -42,7 +41,9 @@ def ball_front(xy: Floats, radius: float) -> Floats:
     """Return the eyeball's depth at (x, y), going on smoothly beside the ball: (n,)."""
     away = np.hypot(xy[:, 0] - EYE_CENTER[0], xy[:, 1] - EYE_CENTER[1]) / radius
     inside = np.sqrt(np.maximum(1.0 - np.minimum(away, 0.8) ** 2, 0.0))
-    return np.asarray(EYE_CENTER[2] + radius * np.where(away < 0.8, inside, 0.6 - (away - 0.8) / 0.75), np.float64)
+    return np.asarray(
+        EYE_CENTER[2] + radius * np.where(away < 0.8, inside, 0.6 - (away - 0.8) / 0.75), np.float64
+    )
 
 
 def left_lids(edge: Floats) -> Floats:
@@ -50,7 +51,7 @@ def left_lids(edge: Floats) -> Floats:
     rim, turn = opening(len(edge))
     loops = [_lid(edge[:, :2] * (1 - share) + rim * share, share) for share in _SHARES]
     center = rim.mean(axis=0)
-    loops.append(_on_ball(center + (rim - center) * [1.02, 1.10], 0.0019))
+    loops.append(_on_ball(center + (rim - center) * [1.01, 1.10], 0.0018))
     loops.append(_on_ball(rim, 0.0006))
     loops.append(_behind(rim, center))
     return np.stack(loops)
@@ -61,7 +62,7 @@ def _behind(rim: Floats, center: Floats) -> Floats:
     away = np.hypot(rim[:, 0] - EYE_CENTER[0], rim[:, 1] - EYE_CENTER[1]) / EYE_RADIUS
     corner = np.clip((away - 0.75) / 0.3, 0.0, 1.0)[:, None]
     lids = center + (rim - center) * [1.02, 1.25]
-    return _on_ball(lids * (1 - corner) + (center + (rim - center) * 0.80) * corner, -0.0007)
+    return _on_ball(lids * (1 - corner) + (center + (rim - center) * 0.60) * corner, -0.0007)
 
 
 def _on_ball(xy: Floats, above: float) -> Floats:

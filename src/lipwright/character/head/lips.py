@@ -28,9 +28,9 @@ _BAG = np.array(
     [
         [25.5, -67.6, -69.0, 92.9, 78.3],
         [26.0, -66.2, -70.6, 89.0, 77.8],
-        [27.5, -61.0, -76.0, 87.4, 74.0],
-        [29.5, -52.5, -88.5, 85.3, 68.0],
-        [32.0, -50.5, -90.5, 72.0, 60.0],
+        [27.3, -61.0, -76.0, 87.4, 73.0],
+        [29.0, -52.5, -85.0, 83.6, 64.0],
+        [31.0, -50.5, -89.5, 71.0, 57.0],
         [32.0, -51.0, -91.5, 52.0, 47.0],
         [26.0, -55.0, -90.0, 33.0, 32.0],
         [13.0, -63.0, -84.0, 21.0, 21.0],
@@ -51,7 +51,7 @@ def contact(turn: Floats) -> Floats:
     # The upper lip's middle hangs a little; the line rises beside it and falls to the corner.
     y = -0.0678 - 0.0007 * np.exp(-((share / 0.22) ** 2)) - 0.0009 * share**4
     skin = _skin(np.stack([x, y], axis=1))
-    skin[:, 2] += 0.0012 - 0.0034 * share**3
+    skin[:, 2] += 0.0016 - 0.0032 * share**3
     return skin
 
 
@@ -106,7 +106,7 @@ def half_lips(edge: Floats) -> Lips:
 def _edge_lift(turn: Floats) -> Floats:
     """Return how far the red's border stands out of the skin (metres)."""
     middle = np.abs(np.cos(np.pi * turn))
-    return np.where(turn < 0.5, 0.0022, 0.0008) * middle
+    return np.where(turn < 0.5, 0.0018, 0.0008) * middle
 
 
 def _around(edge: Floats, border: Floats, turn: Floats, share: float) -> Floats:
@@ -119,7 +119,7 @@ def _red(outer: Floats, meet: Floats, turn: Floats, share: float) -> Floats:
     """Return a loop on the red, which bulges between its border and the contact."""
     points = outer * (1 - share) + meet * share
     middle = np.abs(np.cos(np.pi * turn)) ** 0.8
-    bulge = np.where(turn < 0.5, 0.0026, 0.0042) * np.sin(np.pi * share) ** 0.8 * middle
+    bulge = np.where(turn < 0.5, 0.0021, 0.0040) * np.sin(np.pi * share) ** 0.8 * middle
     points[:, 2] += bulge
     return points
 

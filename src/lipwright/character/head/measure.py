@@ -66,9 +66,7 @@ class Mouth:
     protrusion: Floats
 
 
-def measure(
-    parts: Sequence[Part], marks: Landmarks, weights: Mapping[str, ArrayLike]
-) -> Mouth:
+def measure(parts: Sequence[Part], marks: Landmarks, weights: Mapping[str, ArrayLike]) -> Mouth:
     """Measure the mouth at weights of the head's targets.
 
     Parameters

@@ -58,13 +58,18 @@ def half(part: Anatomy, side: int) -> Floats:
 
 
 def upper(part: Anatomy, power: float = 1.0) -> Floats:
-    """Return the upper lip: 1 in its middle, 0 at the corners."""
-    return part.near * np.clip(part.side, 0.0, 1.0) ** power
+    """Return the upper lip: 1 in its middle, 0 at the corners; broader below a power of 1."""
+    return part.near * _lip(part.side, power)
 
 
 def lower(part: Anatomy, power: float = 1.0) -> Floats:
-    """Return the lower lip: 1 in its middle, 0 at the corners."""
-    return part.near * np.clip(-part.side, 0.0, 1.0) ** power
+    """Return the lower lip: 1 in its middle, 0 at the corners; broader below a power of 1."""
+    return part.near * _lip(-part.side, power)
+
+
+def _lip(side: Floats, power: float) -> Floats:
+    """Return 1 - (1 - side) ** (1 / power): unlike a root, without a cleft at the corner."""
+    return np.asarray(1.0 - (1.0 - np.clip(side, 0.0, 1.0)) ** (1.0 / power), np.float64)
 
 
 def corner(part: Anatomy, power: float = 1.0) -> Floats:

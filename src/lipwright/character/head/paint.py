@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lipwright.character.head.lids import RIM as LID_RIM
+from lipwright.character.head.lids import rim_turn
 from lipwright.character.head.lips import CONTACT, RED
 from lipwright.character.head.skin import Skin
 
@@ -15,7 +16,7 @@ _LIP = np.array([0.78, 0.44, 0.44])
 # Loops behind the contact: the mouth's lining, ever darker, as no light comes there.
 _LINING = np.array(
     [
-        [0.62, 0.30, 0.30],
+        [0.66, 0.34, 0.34],
         [0.55, 0.23, 0.23],
         [0.42, 0.14, 0.14],
         [0.20, 0.060, 0.060],
@@ -41,14 +42,11 @@ def paint_skin(skin: Skin) -> Floats:
     for across, height, radius, strength in _BLUSH:
         share = strength * ahead * np.exp(-((x - across) ** 2 + (y - height) ** 2) / radius**2)
         colors *= 1.0 - share[:, None] * np.array([0.15, 1.0, 0.85])
-    nostril = np.exp(-(((x - 6.6) / 2.6) ** 2) - ((y + 45.0) / 1.7) ** 2) * ahead
+    nostril = np.exp(-(((x - 6.6) / 2.4) ** 2) - ((y + 44.6) / 1.5) ** 2) * ahead
     colors *= 1.0 - nostril[:, None] * np.array([0.72, 0.82, 0.82])
     _paint_lips(skin, colors)
     for loops in skin.eyes:
-        colors[loops[LID_RIM]] *= (0.90, 0.82, 0.82)
-        colors[loops[LID_RIM + 1]] *= (0.62, 0.46, 0.44)
-        colors[loops[LID_RIM + 2]] *= (0.30, 0.17, 0.15)
-        colors[loops[LID_RIM + 3]] *= (0.50, 0.25, 0.22)
+        _paint_lids(loops, colors)
     return colors
 
 
@@ -59,8 +57,20 @@ def _paint_lips(skin: Skin, colors: Floats) -> None:
     for number in range(RED + 1, CONTACT + 2):
         share = (0.6, 1.0, 1.0, 1.0)[number - RED - 1]
         colors[skin.mouth[number]] *= 1.0 - share * paling * (1.0 - _LIP)
-    colors[skin.mouth[CONTACT + 1]] *= 0.80
+    colors[skin.mouth[CONTACT + 1]] *= 0.88
     for number, lining in enumerate(_LINING):
         colors[skin.mouth[CONTACT + 2 + number]] = lining
     end = np.argmin(np.abs(skin.points - (0.0, -0.074, 0.017)).sum(axis=1))
     colors[end] = _LINING[-1]
+
+
+def _paint_lids(loops: NDArray[np.intp], colors: Floats) -> None:
+    """Darken the rims where lashes grow, most on the upper lid; leave the corners pink."""
+    turn = rim_turn(loops.shape[1])
+    upper = turn < 0.5
+    lash = np.abs(np.sin(2 * np.pi * turn)) * np.where(upper, 1.0, 0.45)
+    dark = np.array([[0.90, 0.82, 0.82], [0.34, 0.22, 0.20], [0.16, 0.09, 0.08], [0.2, 0.1, 0.1]])
+    pink = np.array([[0.96, 0.90, 0.89], [0.88, 0.70, 0.67], [0.80, 0.48, 0.45], [0.70, 0.36, 0.33]])
+    for number in range(4):
+        shade = pink[number] + (dark[number] - pink[number]) * lash[:, None]
+        colors[loops[LID_RIM + number]] *= shade

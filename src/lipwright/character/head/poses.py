@@ -41,6 +41,7 @@ def rounded(part: Anatomy) -> list[Move]:
         shift(lower(part) * (1 - red), y=-1.2),
         shift(lower(part) * red, y=-0.8, z=0.5),
         shift(corner(part) * body, y=-0.3),
+        shift(part.flap, y=3.0, z=0.5),
     ]
 
 
@@ -66,10 +67,10 @@ def pressed(part: Anatomy) -> list[Move]:
     """
     red = part.red
     outside = 1.0 - red
-    seam = np.sin(np.pi * red)
+    seam = np.sin(np.pi * red) * (1.0 - corner(part))
     return [
-        shift(upper(part, 0.5) * outside, y=-1.3, z=-0.6),
-        shift(lower(part, 0.5) * outside, y=1.5, z=-0.4),
+        shift(upper(part) * outside, y=-1.5, z=-0.6),
+        shift(lower(part) * outside, y=1.8, z=-0.4),
         shift((upper(part, 0.5) + lower(part, 0.5)) * red, z=-2.6),
         shift(part.near * seam, z=-1.0),
         shift(part.near * red, y=0.2),
@@ -82,15 +83,15 @@ def pressed(part: Anatomy) -> list[Move]:
 def tucked(part: Anatomy) -> list[Move]:
     """`FV`: the lower lip goes under the edge of the upper teeth, which show."""
     red = part.red
-    low = lower(part, 0.45) * step(-0.05, -0.5, part.side)
+    low = lower(part, 0.6)
     return [
         *jaw(part, 1.5),
-        shift(low * red, y=-0.3, z=-8.6),
-        shift(low * (1 - red), y=2.6, z=-3.4),
-        shift(low * np.sin(np.pi * red), y=1.6, z=-0.5),
+        shift(low * red, y=0.8, z=-8.2),
+        shift(lower(part) * (1 - red), y=2.6, z=-3.4),
+        shift(lower(part) * np.sin(np.pi * red), y=1.6, z=-0.5),
         shift(part.flap, y=-2.0),
-        shift(upper(part, 0.7), y=1.8),
-        shift(upper(part, 0.7) * red, y=1.4, z=0.6),
+        shift(upper(part, 0.9), y=1.6),
+        shift(upper(part, 0.9) * red, y=1.2, z=0.6),
     ]
 
 

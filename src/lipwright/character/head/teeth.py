@@ -43,15 +43,35 @@ class Row:
     middle: float
 
 
-UPPER = Row((8.4, 6.7, 7.6, 7.0, 6.8, 9.5), (0.9, 0.3, 0.9, 0.3, 0.0, 0.0), -70.2, -61.2, -53.0, 26.5, 40.0, 43.0)
-LOWER = Row((5.3, 5.9, 6.8, 7.0, 7.0, 10.5), (0.3, 0.2, 0.6, 0.3, 0.0, 0.0), -72.6, -80.8, -89.5, 24.6, 37.5, 42.6)
+UPPER = Row(
+    (8.4, 6.7, 7.6, 7.0, 6.8, 9.5),
+    (0.9, 0.3, 0.9, 0.3, 0.0, 0.0),
+    -70.2,
+    -61.2,
+    -53.0,
+    26.5,
+    40.0,
+    43.0,
+)
+LOWER = Row(
+    (5.3, 5.9, 6.8, 7.0, 7.0, 10.5),
+    (0.3, 0.2, 0.6, 0.3, 0.0, 0.0),
+    -72.6,
+    -80.8,
+    -89.5,
+    24.6,
+    37.5,
+    42.6,
+)
 
 _ACROSS = np.array([0.0, 0.14, 0.5, 0.86])  # stations on one tooth
 _HOLLOW = np.array([-1.3, -0.35, 0.0, -0.35])  # how far each lies behind the tooth's front
 _ROUND = np.array([1.0, 0.12, 0.0, 0.12])  # how much the edge is rounded there
 _SCALLOP = np.array([1.0, 0.3, 0.0, 0.3])  # the gum's margin: longest between two teeth
 # Down the tooth: share of the way from neck to edge, and how far outward (mm).
-_PROFILE = np.array([[-0.12, -0.5], [0.12, 0.35], [0.55, 0.5], [0.93, 0.0], [1.0, -0.7], [0.85, -1.9], [0.0, -3.2]])
+_PROFILE = np.array(
+    [[-0.12, -0.5], [0.12, 0.35], [0.55, 0.5], [0.93, 0.0], [1.0, -0.7], [0.85, -1.9], [0.0, -3.2]]
+)
 # Down the gum: share of the way from root to margin, and how far outward.
 _GUM = np.array([[0.0, -1.0], [0.5, 0.9], [0.88, 1.1], [1.06, 0.2]])
 
@@ -66,7 +86,9 @@ def _stations(row: Row) -> tuple[Floats, Floats, Floats, Floats, Floats]:
     sides = [arc, *columns, long]
     closing = (ends[-1], _HOLLOW[0], _ROUND[0], _SCALLOP[0], row.lengths[-1])
     left = [np.append(side, end) for side, end in zip(sides, closing, strict=True)]
-    left[4][::len(_ACROSS)][1:] = np.minimum(left[4][::len(_ACROSS)][1:], left[4][:-1:len(_ACROSS)])
+    left[4][:: len(_ACROSS)][1:] = np.minimum(
+        left[4][:: len(_ACROSS)][1:], left[4][: -1 : len(_ACROSS)]
+    )
     both = [np.concatenate([side[:0:-1], side]) for side in left]
     both[0][: len(arc)] *= -1.0
     return both[0], both[1], both[2], both[3], both[4]

@@ -66,9 +66,11 @@ def prepare(phones: Sequence[Row], padding: float, silence_reach: float) -> Span
     LabelError
         If a phone has no length: it names it.
     """
+    if not phones:
+        return _spans(_Line([], [], [], []), silence_reach)
     line = _Line([], [], [], [])
-    starts = np.array([start for _, start, _ in phones])
-    ends = np.array([end for _, _, end in phones])
+    starts = np.array([start for _, start, _ in phones], dtype=np.float64)
+    ends = np.array([end for _, _, end in phones], dtype=np.float64)
     gaps = starts[1:] - ends[:-1]
     close = (gaps != 0) & (gaps < ROUNDING)
     middles = 0.5 * (starts[1:] + ends[:-1])[close]
@@ -120,7 +122,8 @@ class _Line:
 
 
 def _spans(line: _Line, silence_reach: float) -> Spans:
-    starts, ends = np.array(line.starts), np.array(line.ends)
+    starts = np.array(line.starts, dtype=np.float64)
+    ends = np.array(line.ends, dtype=np.float64)
     silent = np.array([label == SILENCE for label in line.labels], dtype=bool)
     first, boundary, last = starts[:-1].copy(), starts[1:].copy(), ends[1:].copy()
     before, after = silent[:-1], silent[1:]

@@ -129,8 +129,10 @@ def run(placed: Placed, start: float, end: float, plan: Plan, rules: Rules) -> S
     return Stages(axis, placed, stitched, smoothed, constrained, limited)
 
 
-def _edges(axis: Axis) -> Floats:
-    return np.arange(axis.count, dtype=np.float64) * axis.width
+def _edges(axis: Axis) -> tuple[Floats, Floats]:
+    """First and last instant of every block."""
+    starts = np.arange(axis.count, dtype=np.float64) * axis.width
+    return starts, starts + axis.width * (1 - 1e-9)
 
 
 def stitch(placed: Placed, axis: Axis) -> Line:
@@ -139,8 +141,7 @@ def stitch(placed: Placed, axis: Axis) -> Line:
     Bigrams overlap only their direct neighbours: the even ones and the odd ones are two
     functions without overlap.
     """
-    edges = _edges(axis)
-    ends = edges + axis.width * (1 - 1e-9)
+    edges, ends = _edges(axis)
     blocks = np.arange(axis.count, dtype=np.int16)
     lanes = []
     for parity in (0, 1):
@@ -157,10 +158,9 @@ def stitch(placed: Placed, axis: Axis) -> Line:
 
 
 def _pruned(line: Line, axis: Axis) -> Line:
-    """Drop keys on a straight line; the zeros between blocks stay: they are never straight."""
-    times, values = prune(line)
-    edges = _edges(axis)
-    return insert((times, values), (edges, 0 * edges))
+    """Drop keys on a straight line, but for the zeros at both ends of each block."""
+    ends = np.sort(np.concatenate(_edges(axis)))
+    return insert(prune(line), (ends, 0 * ends))
 
 
 def smooth(stitched: Line, axis: Axis, plan: Plan, rules: Rules) -> Line:

@@ -4,9 +4,6 @@ The front end of CMU Sphinx with the settings of its American English model: win
 25.6 ms, 25 mel bands from 130 to 6800 Hz, tracked noise taken out (after Doblinger 1995
 and Kim's power-normalised cepstra), cosine transform, lifter 22, mean over the line taken
 out, and changes over ± 20 and ± 30 ms as second and third streams.
-
-The frames may lie closer than the 10 ms of the training: interleaved series, each 10 ms
-apart, see what the model saw, and tell the instant of a boundary more finely.
 """
 
 from __future__ import annotations
@@ -17,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 RATE = 16000
-HOP = 160  # samples between the frames of one series
+HOP = 160  # samples between frames
 BANDS = 25
 CEPSTRA = 13
 _WINDOW = 410
@@ -27,41 +24,36 @@ _LIFTER = 22
 _REACH = 3  # frames that a second change looks to either side
 
 
-def cepstra(samples: NDArray[np.float32], *, series: int = 1) -> NDArray[np.float32]:
+def cepstra(samples: NDArray[np.float32]) -> NDArray[np.float32]:
     """Return mel cepstra; their mean is still in them.
 
     Parameters
     ----------
     samples : (N,) float32
         Sound at 16 kHz, in -1..1.
-    series : int
-        How many interleaved series: frames are 10 ms / ``series`` apart.
 
     Returns
     -------
     (T, 13) float32
-        Frame t is centred on ``t * 10 ms / series``.
+        Frame t is centred on ``t * 10 ms``.
     """
-    step = HOP // series
-    count = len(samples) // step + 1
-    scaled = samples.astype(np.float64) * 32767.0
-    scaled = scaled + np.random.default_rng(0).normal(0.0, 1.0, len(scaled))
+    # A floor of always the same noise: digital silence has no logarithm.
+    scaled = samples * 32767.0 + np.random.default_rng(0).normal(0.0, 1.0, len(samples))
     sharpened = np.append(scaled[:1], scaled[1:] - 0.97 * scaled[:-1])
-    padded = np.pad(sharpened, (_WINDOW // 2, _WINDOW + step))
-    result = np.empty((count, CEPSTRA), np.float32)
-    for first in range(series):
-        result[first::series] = _series(padded, first * step, len(result[first::series]))
-    return result
+    padded = np.pad(sharpened, (_WINDOW // 2, _WINDOW))
+    windows = np.lib.stride_tricks.sliding_window_view(padded, _WINDOW)[::HOP]
+    windows = windows[: len(samples) // HOP + 1]
+    power = np.abs(np.fft.rfft(windows * np.hamming(_WINDOW), _FFT)) ** 2
+    bands = _without_noise(power @ _mel_bands().T)
+    return np.asarray(np.log(bands + 1e-4) @ _cosines().T, np.float32)
 
 
-def with_changes(cepstra: NDArray[np.float32], *, series: int = 1) -> NDArray[np.float32]:
+def with_changes(cepstra: NDArray[np.float32]) -> NDArray[np.float32]:
     """Return the three feature streams.
 
     Parameters
     ----------
     cepstra : (T, 13) float32
-    series : int
-        As given to :func:`cepstra`.
 
     Returns
     -------
@@ -69,21 +61,13 @@ def with_changes(cepstra: NDArray[np.float32], *, series: int = 1) -> NDArray[np
         The cepstra without their mean, their changes, and the changes of those.
     """
     level = cepstra - cepstra.mean(axis=0)
-    count, reach = len(level), _REACH * series
-    edged = np.pad(level, ((reach, reach), (0, 0)), mode="edge")
+    count = len(level)
+    edged = np.pad(level, ((_REACH, _REACH), (0, 0)), mode="edge")
 
     def at(offset: int) -> NDArray[np.float32]:
-        first = reach + offset * series
-        return edged[first : first + count]
+        return edged[_REACH + offset : _REACH + offset + count]
 
     return np.stack([level, at(2) - at(-2), (at(3) - at(-1)) - (at(1) - at(-3))])
-
-
-def _series(padded: NDArray[np.float64], first: int, count: int) -> NDArray[np.float32]:
-    windows = np.lib.stride_tricks.sliding_window_view(padded, _WINDOW)[first::HOP][:count]
-    power = np.abs(np.fft.rfft(windows * np.hamming(_WINDOW), _FFT)) ** 2
-    bands = _without_noise(power @ _mel_bands().T)
-    return (np.log(bands + 1e-4) @ _cosines().T).astype(np.float32)
 
 
 def _without_noise(bands: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -181,7 +181,12 @@ def _parameters(path: Path) -> NDArray[np.float64]:
         at += 20
     else:
         streams = int(header[2])
-        shape = (int(header[1]), streams, int(header[3]), int(np.frombuffer(data, "<i4", 1, at + 16)[0]))
+        shape = (
+            int(header[1]),
+            streams,
+            int(header[3]),
+            int(np.frombuffer(data, "<i4", 1, at + 16)[0]),
+        )
         at += 16 + 4 * streams + 4
     count = int(np.prod(shape))
     return np.frombuffer(data, "<f4", count, at).astype(np.float64).reshape(shape)

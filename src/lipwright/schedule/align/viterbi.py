@@ -1,6 +1,8 @@
 """The most likely path through a network: exact, without beams, so that it never fails.
 
-Forney 1973. All states of the network are one vector, moved on one frame at a time.
+Forney (1973). All states of the network are one vector that moves on frame by frame.
+Beams, as pocketsphinx itself has them, refuse good recordings now and then; the networks
+here are small enough to do without.
 """
 
 from __future__ import annotations
@@ -17,34 +19,21 @@ _NEVER = np.float32(-1e30)
 
 
 @dataclass(frozen=True, slots=True)
-class Path:
-    """A path through a network.
+class Stretch:
+    """A node of the network from one frame up to another."""
 
-    Parameters
-    ----------
-    states : (T,) int
-        State of each frame: three per node.
-    score : float
-        Log likelihood of the path.
-    """
-
-    states: NDArray[np.int64]
-    score: float
+    node: int
+    start: int
+    end: int
 
 
 @dataclass(frozen=True, slots=True)
-class Transitions:
-    """A network's transitions as arrays.
+class _Arcs:
+    """Transitions as arrays.
 
-    Parameters
-    ----------
-    stay, move : (S,) float32
-        Log probability of staying in a state, and of coming from the one before it;
-        a node's first state has no state before it.
-    before : (N, B) int
-        States that each node's first state may be entered from, filled up with any state.
-    cost : (N, B) float32
-        Their log probabilities; ``-1e30`` where filled up.
+    ``stay`` and ``move`` (S,): log probability of staying in a state, of coming from the
+    one before it in its phone. ``before``, ``cost`` (N, B): states that each phone may be
+    entered from, and their log probability; filled up with what can never be.
     """
 
     stay: NDArray[np.float32]
@@ -53,28 +42,15 @@ class Transitions:
     cost: NDArray[np.float32]
 
 
-def transitions(model: AcousticModel, network: Network, *, series: int = 1) -> Transitions:
-    """Return the arrays for frames that are 10 ms / ``series`` apart."""
-    phones = np.array([node.phone for node in network.nodes])
-    stay = model.stay[phones] / series
-    leave = np.log1p(-np.exp(np.minimum(stay, -1e-6)))
-    move = np.full_like(stay, _NEVER)
-    move[:, 1:] = leave[:, :-1]
-    width = max((len(b) for b in network.before), default=0) or 1
-    before = np.zeros((len(phones), width), np.int64)
-    cost = np.full((len(phones), width), _NEVER, np.float32)
-    for node, sources in enumerate(network.before):
-        for column, (source, weight) in enumerate(sources):
-            before[node, column] = STATES * source + STATES - 1
-            cost[node, column] = weight + leave[source, -1]
-    return Transitions(stay.reshape(-1), move.reshape(-1).astype(np.float32), before, cost)
-
-
 def best_path(
-    network: Network, arcs: Transitions, scores: NDArray[np.float32], columns: NDArray[np.int64],
-    *, must_end: bool = True,
-) -> Path:
-    """Return the best path.
+    model: AcousticModel,
+    network: Network,
+    scores: NDArray[np.float32],
+    columns: NDArray[np.int64],
+    *,
+    whole: bool = True,
+) -> tuple[Stretch, ...]:
+    """Return the phones of the most likely path.
 
     Parameters
     ----------
@@ -82,37 +58,84 @@ def best_path(
         Log likelihood of each senone in each frame.
     columns : (S,) int
         Column of ``scores`` for each state of the network.
-    must_end : bool
-        Whether the path has to reach the network's end; else it ends in its best state.
+    whole : bool
+        Whether the path has to reach the network's end; else it stops at the end of
+        the word, or in the pause, that is most likely to be reached.
+
+    Returns
+    -------
+    tuple of Stretch
+        Without gaps; empty if the frames are too few for the phones.
     """
-    frames = len(scores)
+    arcs = _arcs(model, network)
+    value, moved, entered = _forward(network, arcs, scores, columns)
+    last = network.last if whole else [i for i, node in enumerate(network.nodes) if node.ends]
+    ends = STATES * np.array(last) + STATES - 1
+    end = int(ends[value[ends].argmax()])
+    if value[end] < 0.5 * _NEVER:
+        return ()
+    return _trace(arcs, moved, entered, end)
+
+
+def _arcs(model: AcousticModel, network: Network) -> _Arcs:
+    phones = np.array([node.phone for node in network.nodes])
+    stay, leave = model.stay[phones], model.leave[phones]
+    move = np.full_like(stay, _NEVER)
+    move[:, 1:] = leave[:, :-1]
+    width = max(len(sources) for sources in network.before)
+    before = np.zeros((len(phones), width), np.int64)
+    cost = np.full((len(phones), width), _NEVER, np.float32)
+    for node, sources in enumerate(network.before):
+        for column, (source, weight) in enumerate(sources):
+            before[node, column] = STATES * source + STATES - 1
+            cost[node, column] = weight + leave[source, -1]
+    return _Arcs(stay.reshape(-1), move.reshape(-1), before, cost)
+
+
+def _forward(
+    network: Network,
+    arcs: _Arcs,
+    scores: NDArray[np.float32],
+    columns: NDArray[np.int64],
+) -> tuple[NDArray[np.float32], NDArray[np.bool_], NDArray[np.uint8]]:
     states = len(arcs.stay)
     entry = np.arange(0, states, STATES)
     rows = np.arange(len(entry))
     value = np.full(states, _NEVER, np.float32)
-    value[STATES * np.array(network.first)] = 0.0
+    for node, weight in network.first:
+        value[STATES * node] = weight
     value += scores[0][columns]
-    moved = np.zeros((frames, states), np.bool_)
-    entered = np.zeros((frames, len(entry)), np.uint8)
-    for t in range(1, frames):
-        came = np.empty(states, np.float32)
+    moved = np.zeros((len(scores), states), np.bool_)
+    entered = np.zeros((len(scores), len(entry)), np.uint8)
+    came = np.empty(states, np.float32)
+    for t in range(1, len(scores)):
         came[1:] = value[:-1]
         came += arcs.move
         options = value[arcs.before] + arcs.cost
         choice = options.argmax(axis=1)
-        entered[t] = choice
         came[entry] = options[rows, choice]
-        stayed = value + arcs.stay
-        np.greater(came, stayed, out=moved[t])
-        value = np.where(moved[t], came, stayed)
+        entered[t] = choice
+        value = value + arcs.stay
+        np.greater(came, value, out=moved[t])
+        np.maximum(came, value, out=value)
         value += scores[t][columns]
-    ends = STATES * np.array(network.last) + STATES - 1
-    end = int(ends[value[ends].argmax()]) if must_end else int(value.argmax())
-    path = np.empty(frames, np.int64)
-    state = end
-    for t in range(frames - 1, -1, -1):
-        path[t] = state
-        if t and moved[t, state]:
-            node, within = divmod(state, STATES)
-            state = state - 1 if within else int(arcs.before[node, entered[t, node]])
-    return Path(path, float(value[end]))
+        np.maximum(value, _NEVER, out=value)
+    return value, moved, entered
+
+
+def _trace(
+    arcs: _Arcs, moved: NDArray[np.bool_], entered: NDArray[np.uint8], end: int
+) -> tuple[Stretch, ...]:
+    stretches: list[Stretch] = []
+    state, stop = end, len(moved)
+    for t in range(len(moved) - 1, 0, -1):
+        if not moved[t, state]:
+            continue
+        node, within = divmod(state, STATES)
+        if within:
+            state -= 1
+        else:
+            stretches.append(Stretch(node, t, stop))
+            state, stop = int(arcs.before[node, entered[t, node]]), t
+    stretches.append(Stretch(state // STATES, 0, stop))
+    return tuple(reversed(stretches))

@@ -45,6 +45,7 @@ WRITERS = {
 }
 """Each suffix and the format that is written."""
 
+_BINARY_TEXTGRID = b"ooBinaryFile"
 _SNIFFED = ("textgrid", "speech_json", "esps", "audacity", "ctm", "htk")
 _BESIDE = {".phn": ".wrd", ".wrd": ".phn"}
 
@@ -109,6 +110,8 @@ def read_labels(
 
 def _parse(path: Path) -> Parsed:
     data, where = read_bytes(path), str(path)
+    if data.startswith(_BINARY_TEXTGRID):
+        return _parsed(_format("textgrid"), data, where)
     text = decode(data, where)
     own = READERS.get(path.suffix.lower(), ())
     for name in (*own, *_SNIFFED):

@@ -85,7 +85,7 @@ def encode(speech: Speech) -> bytes:
         if phone.confidence is not None:
             fields.append(f"{phone.confidence:.4f}")
         if index in first:
-            name = first[index]
+            name = " ".join(first[index].split())
             fields.append(f'"{name}"' if is_number(name) or " " in name else name)
         written.append(" ".join(fields))
     return ("\n".join(written) + "\n").encode()

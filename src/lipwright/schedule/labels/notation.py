@@ -55,13 +55,18 @@ def guess(labels: Sequence[str]) -> str:
 
 
 def _strangeness(labels: Sequence[str], name: str) -> int:
-    # IPA's letters spell whole words too: "hello" is no phone.
-    longer = [label for label in set(labels) if name == "ipa" and _letters(label) > _LONGEST]
-    return len({*_unknown(labels, name), *longer})
+    strange = set(_unknown(labels, name))
+    if name == "ipa":
+        strange.update(filter(_is_wordlike, labels))
+    return len(strange)
 
 
-def _letters(label: str) -> int:
-    return sum(unicodedata.category(character) in ("Ll", "Lo") for character in label)
+def _is_wordlike(label: str) -> bool:
+    # IPA's letters spell words and typing errors too: only pairs such as ts, au are phones.
+    letters = [c for c in label.strip() if unicodedata.category(c) in ("Ll", "Lo")]
+    if not label.isascii():
+        return len(letters) > _LONGEST
+    return len(letters) > 2 or len(set(letters)) < len(letters)
 
 
 def normalised(rows: Sequence[Row], phone_set: str, where: str) -> tuple[list[Row], str]:
@@ -83,12 +88,16 @@ def normalised(rows: Sequence[Row], phone_set: str, where: str) -> tuple[list[Ro
     """
     labels = [row.label for row in rows if not is_silence(row.label)]
     name = phone_set or guess(labels)
+    if name not in ("ipa", "timit"):
+        load_phone_set(name)  # a set that does not exist is not a matter of labels
     if name in ("arpabet", "timit"):
         name, rows = "arpabet", folded(rows)
         labels = [row.label for row in rows if not is_silence(row.label)]
     unknown = _unknown(labels, name)
-    if not phone_set and not unknown and _strangeness(labels, name):
-        unknown = [label for label in dict.fromkeys(labels) if _letters(label) > _LONGEST]
+    if name == "ipa" and not phone_set:
+        unknown = [
+            label for label in dict.fromkeys(labels) if label in unknown or _is_wordlike(label)
+        ]
     if unknown:
         raise _stranger(unknown, len(set(labels)), name, where)
     spelled = {label: _spelled(label, name) for label in set(labels)}

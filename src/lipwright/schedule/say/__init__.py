@@ -24,6 +24,7 @@ from lipwright.speech import Speech
 __all__ = ["Voice", "say", "voices"]
 
 _LONGEST_TEXT = 100_000  # characters, about two hours of speech
+_LONGEST_WORD = 150  # characters; espeak-ng drops the rest
 _RATES = (80, 450)
 _PITCHES = (0, 99)
 _ENGINES = ("espeak", "festival")
@@ -84,7 +85,7 @@ def say(
     if engine == "festival" or voice.split(":")[0] == "festival":
         return _say_with_festival(script, text, voice, rate, pitch)
     spoken, notes = _speak(script.spoken, voice, round(rate), pitch)
-    return from_espeak(spoken, script, text=text, notes=notes)
+    return from_espeak(spoken, script, text=text, notes=notes + _notes(script))
 
 
 def voices() -> list[Voice]:
@@ -154,3 +155,8 @@ def _speak(
         raise unknown_voice(voice, installed, variants) from None
     notes = () if exact else (f"there is no voice {voice!r}: spoken by {spoken.language!r}",)
     return spoken, notes
+
+
+def _notes(script: Script) -> tuple[str, ...]:
+    long = [word for word in script.words if len(word) > _LONGEST_WORD]
+    return tuple(f"only the beginning of {word[:20]!r}… was spoken" for word in long)

@@ -12,7 +12,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-_QUIET = 0.01  # of the preceding phone's peak: 40 dB down
+_QUIET = 0.1  # of the preceding phone's peak: 20 dB down, above the echo that some voices have
 _SHORTEST = 0.004  # seconds; a glottal period of low voices has gaps below this
 _AFTER_PAUSE = 0.06  # seconds; the closure of a stop that begins a phrase
 _KEPT = 0.25  # what the preceding phone keeps at least of its time

@@ -108,17 +108,17 @@ def speak(
     request = {"task": "say", "text": text, "voice": voice, "rate": rate, "pitch": pitch}
     patience = _PATIENCE + _PATIENCE_PER_CHARACTER * len(text)
     samples_per_second, language = 0, ""
-    pieces: list[NDArray[np.float32]] = []
+    sound = bytearray()
     phones: list[tuple[str, int, int]] = []
     for answer, pcm in _ask(request, patience):
         if "rate" in answer:
             samples_per_second, language = answer["rate"], answer["language"]
             accept(language)
-        if pcm:
-            pieces.append(np.frombuffer(pcm, "<i2").astype(np.float32) / np.float32(32768))
+        sound += pcm
         for label, sample, position in answer.get("phones", ()):
             phones.append((label, sample, position - 1))
-    samples = np.concatenate(pieces) if pieces else np.zeros(0, np.float32)
+    samples = np.frombuffer(sound, "<i2").astype(np.float32)
+    samples /= 32768
     return Spoken(samples, samples_per_second, tuple(phones), language)
 
 

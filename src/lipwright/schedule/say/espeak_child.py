@@ -122,15 +122,23 @@ class Espeak:
     def choose_voice(self, voice: str) -> str:
         """Take a voice by its name, language or file (``+variant``); return its language."""
         _, _, variant = voice.partition("+")
-        # The library takes an unknown variant without a word.
+        # The library takes an unknown variant, and a voice that cannot speak, in silence.
         known = not variant or (self.info()[1] / "voices" / "!v" / variant).is_file()
-        if not known or self.library.espeak_SetVoiceByName(voice.encode()) != 0:
-            raise Refused("voice", voices=self.voices(), variants=self.variants())
-        return _languages(self.library.espeak_GetCurrentVoice().contents.languages)[0]
+        if known and "\0" not in voice:
+            found = self.library.espeak_SetVoiceByName(voice.encode()) == 0
+            current = self.library.espeak_GetCurrentVoice()
+            languages = _languages(current.contents.languages) if found else []
+            if _has_dictionary(languages, self.dictionaries()):
+                return languages[0]
+        raise Refused("voice", voices=self.voices(), variants=self.variants())
+
+    def dictionaries(self) -> set[str]:
+        """Return the names of the dictionaries that came with the library."""
+        return {path.name for path in self.info()[1].glob("*_dict")}
 
     def voices(self) -> list[dict[str, Any]]:
         """Return every voice: its name, its languages (best first) and its file."""
-        dictionaries = {path.name for path in self.info()[1].glob("*_dict")}
+        dictionaries = self.dictionaries()
         listed = self.library.espeak_ListVoices(None)
         result: list[dict[str, Any]] = []
         for pointer in iter(_pointers(listed)):
