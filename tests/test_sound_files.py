@@ -175,6 +175,17 @@ def test_what_is_no_sound_says_what_it_is(
         read_sound(tmp_path / "a.wav")
 
 
+def test_a_wild_header_prints_nothing_of_its_own(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    header = bytearray(encoded(tone(), kind="AIFF"))
+    header[38] = 0xF0  # the length of a chunk: libsndfile seeks to before the file
+    (tmp_path / "a.aiff").write_bytes(header)
+    with pytest.raises(SoundError, match=r"a\.aiff: "):
+        read_sound(tmp_path / "a.aiff")
+    assert capfd.readouterr() == ("", "")
+
+
 def test_raw_samples_are_refused_under_their_own_suffix_too(tmp_path: Path) -> None:
     (tmp_path / "a.raw").write_bytes(bytes(range(256)) * 4)
     with pytest.raises(SoundError, match="is not a sound file that can be read"):

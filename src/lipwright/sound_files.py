@@ -28,7 +28,7 @@ from numpy.typing import NDArray
 
 from lipwright.errors import InputError, MissingExtraError, SoundError
 from lipwright.sound import Sound
-from lipwright.sound_headers import looks_like_media, mended, wav_data
+from lipwright.sound_headers import SteadyFile, looks_like_media, wav_data
 
 KINDS = "WAV, FLAC, Ogg (Vorbis or Opus), MP3, AIFF, m4a or mp4"
 _CUT = "the file is broken or was cut"
@@ -153,16 +153,14 @@ def _source(file: IO[bytes], where: str, stack: contextlib.ExitStack) -> _Source
         return _from_child(file, where, stack)
     data = wav_data(file)
     file.seek(0)
-    if data is not None and data.declared is None:
-        return _from_soundfile(mended(file, data), where, stack)
-    source = _from_soundfile(file, where, stack)
+    source = _from_soundfile(SteadyFile(file, data), where, stack)
     if data is not None and data.declared is not None and data.declared > data.present:
         share = data.present / data.declared
         source.notes.append(f"the file was cut: it holds {share:.0%} of what its header says")
     return source
 
 
-def _from_soundfile(file: IO[bytes], where: str, stack: contextlib.ExitStack) -> _Source:
+def _from_soundfile(file: SteadyFile, where: str, stack: contextlib.ExitStack) -> _Source:
     import soundfile  # late: it loads a library
 
     class Forward(soundfile.SoundFile):  # type: ignore[misc]
@@ -179,7 +177,7 @@ def _from_soundfile(file: IO[bytes], where: str, stack: contextlib.ExitStack) ->
     return source
 
 
-def _why_not(file: IO[bytes], error: str) -> str:
+def _why_not(file: SteadyFile, error: str) -> str:
     if "malformed" in error or "chunk" in error:
         return "is broken: its header is not whole"
     file.seek(0)

@@ -13,7 +13,7 @@ import io
 import os
 import struct
 from dataclasses import dataclass
-from typing import IO
+from typing import IO, Any
 
 UNKNOWN = 0x7FFF0000
 """Lengths from here on stand for "until the end" (sox 0x7FFFF000, others 0xFFFFFFFF)."""
@@ -67,35 +67,59 @@ def wav_data(file: IO[bytes]) -> WavData | None:
     return None
 
 
-def mended(file: IO[bytes], data: WavData) -> IO[bytes]:
-    """Return a view of a WAV file of open length that libsndfile reads to its end."""
-    return io.BufferedReader(_Overlay(file, data.at - 4, b"\xff\xff\xff\xff"))
+class SteadyFile(io.RawIOBase):
+    """A file as libsndfile shall see it.
 
+    libsndfile seeks to wild places where a header is broken; the errors of that would be
+    printed from inside the library, and are kept from it: it then finds the end of the
+    file. The length of a piped WAV reads as "until the end".
 
-class _Overlay(io.RawIOBase):
-    """A file in which a few bytes read differently; nothing is written or copied."""
+    Parameters
+    ----------
+    file : file
+        Opened for bytes, and sought in.
+    data : WavData, optional
+        Its samples, where it is a WAV.
+    """
 
-    def __init__(self, file: IO[bytes], at: int, patch: bytes) -> None:
+    def __init__(self, file: IO[bytes], data: WavData | None) -> None:
         super().__init__()
-        self._file, self._at, self._patch = file, at, patch
+        self._file = file
+        is_open = data is not None and data.declared is None
+        self._patch_at = data.at - 4 if data is not None and is_open else None
 
     def readable(self) -> bool:
+        """Tell that it can be read."""
         return True
 
     def seekable(self) -> bool:
+        """Tell that it can be sought in."""
         return True
 
     def seek(self, offset: int, whence: int = os.SEEK_SET, /) -> int:
-        return self._file.seek(offset, whence)
+        """Go to a place; where there is none, to the end."""
+        try:
+            return self._file.seek(offset, whence)
+        except (OSError, ValueError, OverflowError):
+            return self._file.seek(0, os.SEEK_END)
 
     def tell(self) -> int:
+        """Return the place."""
         return self._file.tell()
 
-    def readinto(self, buffer: memoryview, /) -> int:  # type: ignore[override]
+    def readinto(self, buffer: Any, /) -> int:
+        """Fill ``buffer`` from here on and return how many bytes there were."""
         position = self._file.tell()
-        read = self._file.read(len(buffer))
+        try:
+            read = self._file.read(len(buffer))
+        except OSError:
+            read = b""
+        if self._patch_at is not None:
+            read = _patched(read, self._patch_at - position)
         buffer[: len(read)] = read
-        for index, byte in enumerate(self._patch, start=self._at - position):
-            if 0 <= index < len(read):
-                buffer[index] = byte
         return len(read)
+
+
+def _patched(read: bytes, at: int) -> bytes:
+    first, last = max(at, 0), min(at + 4, len(read))
+    return read if first >= last else read[:first] + b"\xff" * (last - first) + read[last:]

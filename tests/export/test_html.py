@@ -162,15 +162,15 @@ def test_the_same_performance_gives_the_same_bytes() -> None:
 
 
 def test_a_compressed_model_is_refused() -> None:
-    glb = Gltf({"asset": {"version": "2.0"}, "extensionsRequired": ["KHR_draco_mesh_compression"]})
-    with pytest.raises(CharacterError, match="compressed .*KHR_draco.* without compression"):
-        html.encode(with_model(pop(), glb.to_glb()))
+    document = {"asset": {"version": "2.0"}, "extensionsRequired": ["KHR_draco_mesh_compression"]}
+    with pytest.raises(CharacterError, match=r"compressed .*KHR_draco.* without compression"):
+        html.encode(with_model(pop(), Gltf(document, b"").to_glb()))
 
 
 def test_a_player_that_was_not_built_is_named(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Any
 ) -> None:
-    monkeypatch.setattr(html.resources, "files", lambda _: tmp_path)
+    monkeypatch.setattr("lipwright.export.html.resources.files", lambda _: tmp_path)
     with pytest.raises(LipwrightError, match=r"not been built.*hatch_build\.py"):
         html.encode(pop())
     (tmp_path / "player.html").write_text("<html></html>", "utf-8")

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from lipwright.animation import Animation
 from lipwright.character.builtin import to_glb
@@ -33,11 +34,13 @@ def tiny_face() -> bytes:
     parts = []
     for name, (low, high, moves) in _PARTS.items():
         corners = [[-0.03, low, 0], [0.03, low, 0], [0.03, high, 0], [-0.03, high, 0]]
-        morphs = {
-            target: np.tile(np.float32([0, move, 0]), (4, 1)) for target, move in moves.items()
-        }
-        parts.append(Part(name, np.float32(corners), triangles, _SKIN, morphs))
+        morphs = {target: np.tile(_row(0, move, 0), (4, 1)) for target, move in moves.items()}
+        parts.append(Part(name, np.array(corners, np.float32), triangles, _SKIN, morphs, None))
     return to_glb(parts, "Tiny face")
+
+
+def _row(*values: float) -> NDArray[np.float32]:
+    return np.array(values, np.float32)
 
 
 def pop(*, sound: bool = True) -> Performance:

@@ -29,7 +29,7 @@ ABOUT = (
 )
 PRIORITY = ("open", "W", "wide", "ShCh", "FV", "PBM", *TONGUE)
 FAST = ("PBM", "FV")
-SOFTNESS = {"open": 0.06, "W": 0.06, "wide": 0.06, "ShCh": 0.05}
+SOFTNESS = {"open": 0.06, "W": 0.06, "wide": 0.06, "ShCh": 0.05, "PBM": 0.012, "FV": 0.012}
 
 
 def rules() -> Rules:

@@ -97,14 +97,14 @@ SOUNDS: dict[str, Sound] = {
     "f": Sound(
         "closure",
         {"FV": 1.0, "open": 0.05},
-        at=(0.30, 0.66),
+        at=(0.30, 0.56),
         lets_through={"W": 0.30, "wide": 0.25},
         keeps={"W": 0.15, "wide": 0.20},
     ),
     "bmp": Sound(
         "closure",
         {"PBM": 1.0},
-        at=(0.30, 0.66),
+        at=(0.30, 0.56),
         lets_through={"W": 0.45, "wide": 0.30},
         keeps={"W": 0.25, "wide": 0.25},
     ),

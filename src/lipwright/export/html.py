@@ -61,15 +61,16 @@ def encode(performance: Performance) -> bytes:
     """
     before, after = _player()
     rigged = performance.rig()
-    channels = _moving(rigged.channels)
     model = parse_glb(rigged.glb, rigged.name)
+    held = _held(model)
+    channels = _moving(rigged.channels, held)
     content = {
         **_content(performance),
         "model": rigged.name,
         "backwards": "VRM" in model.json.get("extensions", {}),
         "channels": _channels(channels),
     }
-    glb = _light(model, channels.controls).to_glb()
+    glb = _light(model, held.union(channels.controls)).to_glb()
     blocks = [
         _block("performance", "application/json", _json(content)),
         _block("model", "model/gltf-binary;base64", _base64(glb)),
@@ -111,11 +112,28 @@ def _content(performance: Performance) -> dict[str, Any]:
     }
 
 
-def _moving(channels: Animation) -> Animation:
-    """Return the channels that move or are held: those that stay at zero change nothing."""
-    used = np.flatnonzero(np.abs(channels.values).max(axis=0, initial=0.0) > 0)
+def _moving(channels: Animation, held: Collection[str]) -> Animation:
+    """Return the channels that are ever away from zero, or whose model is at rest."""
+    used = [
+        index
+        for index, (name, values) in enumerate(
+            zip(channels.controls, channels.values.T, strict=True)
+        )
+        if name in held or values.any()
+    ]
     names = tuple(channels.controls[index] for index in used)
     return Animation(names, channels.values[:, used], channels.rate, channels.start)
+
+
+def _held(model: Gltf) -> set[str]:
+    """Return the morph targets that are away from zero when the model is at rest."""
+    return {
+        name
+        for mesh in morph_meshes(model)
+        for weights in mesh.weights
+        for name, weight in zip(mesh.targets, weights, strict=True)
+        if weight
+    }
 
 
 def _channels(channels: Animation) -> dict[str, Any]:
@@ -156,7 +174,7 @@ def _playable(sound: Sound) -> Sound:
     return sound.resampled(min(max(sound.rate, _LOWEST_RATE), highest))
 
 
-def _light(model: Gltf, moved: Collection[str]) -> Gltf:
+def _light(model: Gltf, shown: Collection[str]) -> Gltf:
     """Return the model with the morph targets that this page can show."""
     needed = [name for name in model.json.get("extensionsRequired", ()) if name in _COMPRESSIONS]
     if needed:
@@ -166,10 +184,4 @@ def _light(model: Gltf, moved: Collection[str]) -> Gltf:
             expected="a GLB that a page can open without a decoder",
             cure="export the model without compression",
         )
-    held = {
-        name
-        for mesh in morph_meshes(model)
-        for name, weight in zip(mesh.targets, mesh.weights, strict=True)
-        if weight
-    }
-    return keep_morphs(model, {*moved, *_LIDS, *held})
+    return keep_morphs(model, {*shown, *_LIDS})

@@ -57,11 +57,11 @@ class PhoneSet:
     aliases: dict[str, str] = field(default_factory=dict)
     stress: bool = False
     case: bool = False
+    labels: tuple[str, ...] = field(init=False)
+    """The labels, in the order of the file."""
 
-    @property
-    def labels(self) -> tuple[str, ...]:
-        """The labels, in the order of the file."""
-        return tuple(phone.label for phone in self.phones)
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "labels", tuple(phone.label for phone in self.phones))
 
     def example(self, label: str) -> str:
         """Return the example word of a label, or nothing."""

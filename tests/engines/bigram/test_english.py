@@ -118,4 +118,5 @@ def test_the_published_preset_runs_the_same_line() -> None:
     track = PhoneTrack(Tier.of(("p", 0, 0.1), ("aa", 0.1, 0.4), ("p", 0.4, 0.5)))
     animation = BigramEngine(SET, "published").animate(Speech(track))
     # Its literal bound caps the mouth at one half (DESIGN section 4, stage 4).
-    assert 0.2 < animation.control("open").max() <= 0.5
+    assert 0.2 < animation.keys["open"].values.max() <= 0.5
+    assert not animation.values[[0, -1]].any()

@@ -14,7 +14,7 @@ from lipwright.character.head.eyes import eyeball
 from lipwright.character.head.hair import hair
 from lipwright.character.head.lips import CONTACT, RED
 from lipwright.character.head.measure import Landmarks
-from lipwright.character.head.paint import paint_skin
+from lipwright.character.head.paint import paint_skin, shade
 from lipwright.character.head.poses import POSES
 from lipwright.character.head.shirt import shirt
 from lipwright.character.head.skin import Skin, build_skin
@@ -59,7 +59,7 @@ def build_head() -> tuple[Part, ...]:
             )
     points, triangles, share = tongue()
     parts.append(
-        _part("tongue", points, triangles, TONGUE, rigid(points, 0.92, tongue=share), None)
+        _part("tongue", points, triangles, TONGUE, rigid(points, 0.92, tongue=share), shade(points, 0.040, 0.078))
     )
     for name, side in (("left", 1.0), ("right", -1.0)):
         points, triangles, colors = eyeball(side)

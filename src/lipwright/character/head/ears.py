@@ -47,8 +47,8 @@ _LOOPS = np.array(
         [0.18, -5.2, -4.6],
     ]
 )
-_PLACE = (0.0752, -0.0135, -0.0105)
-_TILT, _STAND_OFF = np.radians(9.0), np.radians(27.0)
+_PLACE = (0.0742, -0.0135, -0.0105)
+_TILT, _STAND_OFF = np.radians(9.0), np.radians(21.0)
 
 
 def ears() -> tuple[Floats, Indices]:

@@ -10,10 +10,10 @@ from lipwright.character.head.surface import front
 
 Floats = NDArray[np.float64]
 
-EYE_CENTER = np.array([0.0318, 0.0, 0.0655])
-EYE_RADIUS = 0.0128
-_INNER = (0.0158, -0.0022)  # corners of the opening
-_OUTER = (0.0478, 0.0010)
+EYE_CENTER = np.array([0.0318, 0.0, 0.0648])
+EYE_RADIUS = 0.0135
+_INNER = (0.0172, -0.0020)  # corners of the opening
+_OUTER = (0.0464, 0.0012)
 _UPPER_RISE, _LOWER_FALL = 0.0055, 0.0055
 _SHARES = (0.28, 0.50, 0.68, 0.83)  # of the way from the window's edge to the lid's rim
 FIRST_TURN = 3  # loop vertices from the inner corner to the window's upper inner corner
@@ -62,11 +62,18 @@ def _behind(rim: Floats, center: Floats) -> Floats:
     away = np.hypot(rim[:, 0] - EYE_CENTER[0], rim[:, 1] - EYE_CENTER[1]) / EYE_RADIUS
     corner = np.clip((away - 0.75) / 0.3, 0.0, 1.0)[:, None]
     lids = center + (rim - center) * [1.02, 1.25]
-    return _on_ball(lids * (1 - corner) + (center + (rim - center) * 0.60) * corner, -0.0007)
+    return _on_ball(lids * (1 - corner) + (center + (rim - center) * 0.82) * corner, -0.0009)
 
 
 def _on_ball(xy: Floats, above: float) -> Floats:
-    return np.column_stack([xy, ball_front(xy, EYE_RADIUS + above)])
+    """Return points `above` the ball; towards the nose they rise to the skin's depth."""
+    depth = ball_front(xy, EYE_RADIUS + above)
+    away = np.hypot(xy[:, 0] - EYE_CENTER[0], xy[:, 1] - EYE_CENTER[1]) / EYE_RADIUS
+    inner = np.clip((away - 0.86) / 0.22, 0.0, 1.0) * (xy[:, 0] < EYE_CENTER[0])
+    skin = front(xy[:, 0], xy[:, 1])
+    skin = skin + relief(skin)
+    raised = np.maximum(depth, skin[:, 2] - 0.0012 + 0.3 * above)
+    return np.column_stack([xy, depth + (raised - depth) * inner])
 
 
 def _lid(xy: Floats, share: float) -> Floats:

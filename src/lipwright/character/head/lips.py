@@ -16,7 +16,7 @@ from lipwright.character.head.surface import front
 
 Floats = NDArray[np.float64]
 
-CORNER = (0.0255, -0.0687)
+CORNER = (0.0255, -0.0682)
 _SKIN_SHARES = (0.24, 0.46, 0.66, 0.84)  # of the way from the window's edge to the red
 _RED_SHARES = (0.3, 0.62)  # of the way from the red's border to the contact
 RED = len(_SKIN_SHARES)  # number of the loop on the border, counted from the first made here
@@ -26,8 +26,6 @@ CONTACT = RED + 1 + len(_RED_SHARES)
 # the sides of the mouth (the dental arch between them is curved).
 _BAG = np.array(
     [
-        [25.5, -67.6, -69.0, 92.9, 78.3],
-        [26.0, -66.2, -70.6, 89.0, 77.8],
         [27.3, -61.0, -76.0, 87.4, 73.0],
         [29.0, -52.5, -85.0, 83.6, 64.0],
         [31.0, -50.5, -89.5, 71.0, 57.0],
@@ -36,6 +34,8 @@ _BAG = np.array(
         [13.0, -63.0, -84.0, 21.0, 21.0],
     ]
 )
+# The loops between: how far above and below the contact, and how far behind it (mm).
+_INNER_LIP = ((0.10, 0.35), (2.0, 4.6))
 BACK = (0.0, -0.074, 0.017)
 
 
@@ -49,7 +49,7 @@ def contact(turn: Floats) -> Floats:
     x = CORNER[0] * np.sin(np.pi * turn) ** 0.92
     share = x / CORNER[0]
     # The upper lip's middle hangs a little; the line rises beside it and falls to the corner.
-    y = -0.0678 - 0.0007 * np.exp(-((share / 0.22) ** 2)) - 0.0009 * share**4
+    y = -0.0678 - 0.0007 * np.exp(-((share / 0.22) ** 2)) - 0.0004 * share**4
     skin = _skin(np.stack([x, y], axis=1))
     skin[:, 2] += 0.0016 - 0.0032 * share**3
     return skin
@@ -61,8 +61,8 @@ def red_border(turn: Floats) -> Floats:
     x = (CORNER[0] + 0.0004) * np.sin(np.pi * turn) ** np.where(upper, 0.95, 0.9)
     share = np.clip(x / CORNER[0], 0.0, 1.0)
     bow = 0.0007 * np.cos(np.clip(share / 0.27, 0.0, 2.0) * np.pi)  # Cupid's
-    above = -0.0606 - bow - 0.0079 * np.clip((share - 0.2) / 0.8, 0.0, 1.0) ** 1.35
-    below = -0.0689 - 0.0098 * np.clip(1.0 - share**2.3, 0.0, 1.0) ** 0.85
+    above = -0.0606 - bow - 0.0074 * np.clip((share - 0.2) / 0.8, 0.0, 1.0) ** 1.35
+    below = -0.0684 - 0.0103 * np.clip(1.0 - share**2.3, 0.0, 1.0) ** 0.85
     return np.stack([x, np.where(upper, above, below)], axis=1)
 
 
@@ -97,6 +97,7 @@ def half_lips(edge: Floats) -> Lips:
     loops.append(outer)
     loops.extend(_red(outer, meet, turn, share) for share in _RED_SHARES)
     loops.append(meet)
+    loops.extend(_inner_lip(turn, meet, rise, depth) for rise, depth in _INNER_LIP)
     loops.extend(_bag(turn, row) for row in _BAG * 1e-3)
     stacked = np.stack(loops)
     stacked[:, [0, -1], 0] = 0.0
@@ -122,6 +123,18 @@ def _red(outer: Floats, meet: Floats, turn: Floats, share: float) -> Floats:
     bulge = np.where(turn < 0.5, 0.0021, 0.0040) * np.sin(np.pi * share) ** 0.8 * middle
     points[:, 2] += bulge
     return points
+
+
+def _inner_lip(turn: Floats, meet: Floats, rise: float, depth: float) -> Floats:
+    cosine = np.cos(np.pi * turn)
+    middle = np.abs(cosine)
+    return np.column_stack(
+        [
+            meet[:, 0] + 0.0003 * (1.0 - middle) * (meet[:, 0] > 0),
+            meet[:, 1] + rise * 1e-3 * np.sign(cosine) * middle**0.7,
+            meet[:, 2] - depth * 1e-3 * (0.35 + 0.65 * middle),
+        ]
+    )
 
 
 def _bag(turn: Floats, row: Floats) -> Floats:

@@ -50,6 +50,12 @@ def paint_skin(skin: Skin) -> Floats:
     return colors
 
 
+def shade(points: Floats, back: float, ahead: float) -> Floats:
+    """Return grey per vertex for what lies in the mouth: dark at depth `back`, light ahead."""
+    share = np.clip((points[:, 2] - back) / (ahead - back), 0.0, 1.0)
+    return np.repeat((0.10 + 0.85 * share**1.3)[:, None], 3, axis=1)
+
+
 def _paint_lips(skin: Skin, colors: Floats) -> None:
     count = skin.mouth.shape[1]
     middle = np.abs(np.cos(2 * np.pi * np.arange(count) / count))

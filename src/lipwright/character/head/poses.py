@@ -34,14 +34,14 @@ def rounded(part: Anatomy) -> list[Move]:
     body = 1.0 - 0.35 * red
     return [
         gather(part, part.near, 0.44),
-        shift(part.near, z=6.5),
+        shift(part.near, z=7.5),
         shift(corner(part, 0.8), z=4.5),
         shift(upper(part) * (1 - red), y=0.8),
         shift(upper(part) * red, y=0.6, z=0.8),
         shift(lower(part) * (1 - red), y=-1.2),
         shift(lower(part) * red, y=-0.8, z=0.5),
         shift(corner(part) * body, y=-0.3),
-        shift(part.flap, y=3.0, z=0.5),
+        shift(part.flap, y=4.0, z=0.5),
     ]
 
 
@@ -112,18 +112,18 @@ def spread_wide(part: Anatomy) -> list[Move]:
 def tongue_back(part: Anatomy) -> list[Move]:
     """`tBack`: the body of the tongue rises at the back."""
     body = _along(part, 0.35, 0.27)
-    return [shift(body, y=9.5, z=-3.0), shift(_along(part, 1.0, 0.35), y=-1.0, z=-5.0)]
+    return [shift(body, y=11.0, z=-3.0), shift(_along(part, 1.0, 0.35), y=-1.0, z=-5.0)]
 
 
 def tongue_roof(part: Anatomy) -> list[Move]:
     """`tRoof`: the tip touches the ridge behind the upper teeth."""
     tip = _tip(part, 0.45)
-    return [shift(tip, y=12.5, z=-0.5), turn(tip, -14.0, _X, (0.0, -0.072, 0.056))]
+    return [shift(tip, y=14.5, z=-0.5), turn(tip, -14.0, _X, (0.0, -0.074, 0.056))]
 
 
 def tongue_teeth(part: Anatomy) -> list[Move]:
     """`tTeeth`: the tip comes between the teeth."""
-    return [shift(_tip(part, 0.1), z=11.5), shift(_tip(part, 0.35), y=4.5)]
+    return [shift(_tip(part, 0.1), z=11.0), shift(_tip(part, 0.3), y=9.0)]
 
 
 def _tip(part: Anatomy, start: float) -> np.ndarray[tuple[int], np.dtype[np.float64]]:

@@ -28,7 +28,7 @@ class _Bump(NamedTuple):
 
 _BUMPS = {
     "orbit": _Bump(31.0, 0.0, 19.0, 13.0, -6.5),
-    "inner orbit": _Bump(14.5, 6.0, 7.5, 9.0, -3.0),
+    "inner orbit": _Bump(14.5, 6.0, 7.5, 9.0, -2.2),
     "brow ridge": _Bump(27.0, 19.0, 20.0, 7.5, 2.8),
     "glabella": _Bump(0.0, 20.0, 12.0, 9.0, 1.0),
     "cheekbone": _Bump(45.0, -24.0, 17.0, 12.0, 3.2, 1.5),
@@ -43,7 +43,7 @@ _BUMPS = {
     "philtrum ridge": _Bump(6.0, -55.0, 3.0, 8.0, 0.6),
     "corner of mouth": _Bump(30.0, -70.0, 7.0, 9.0, -1.2),
     "nose side": _Bump(11.0, -30.0, 7.0, 11.0, 2.2),
-    "nose tip": _Bump(0.0, -37.5, 7.5, 5.0, 1.6),
+    "nose tip": _Bump(0.0, -37.5, 7.5, 5.5, 1.0),
     "columella": _Bump(0.0, -43.5, 3.6, 3.0, 1.0, 0.0, -0.9),
     "nose wing": _Bump(12.8, -40.6, 4.7, 4.9, 8.0, 1.0, -0.8),
     "wing crease": _Bump(19.6, -40.0, 3.0, 6.5, -1.4),
@@ -57,14 +57,14 @@ _RIDGE = np.array(
         [3.0, 2.0, 5.4],
         [-6.0, 6.4, 5.2],
         [-16.0, 11.4, 5.6],
-        [-26.0, 17.2, 6.4],
+        [-26.0, 16.2, 6.6],
         [-32.0, 20.8, 7.2],
         [-36.5, 23.0, 7.8],
-        [-40.0, 21.4, 7.6],
-        [-42.6, 17.2, 6.4],
-        [-44.8, 11.2, 5.4],
-        [-47.0, 5.0, 4.8],
-        [-49.5, 1.4, 4.8],
+        [-40.0, 20.6, 7.6],
+        [-42.6, 16.2, 6.6],
+        [-44.8, 10.8, 5.8],
+        [-47.0, 5.4, 5.2],
+        [-49.5, 1.8, 5.0],
         [-53.0, 0.0, 5.0],
     ]
 )
@@ -117,6 +117,6 @@ def relief(points: Floats) -> Floats:
         total[:, 1] += bump.upward * hill
     # The tip's underside rises to both sides of the columella.
     under = np.where(y < -36.0, y - 1.6 * np.minimum(np.abs(x) / 7.0, 1.6) ** 2, y)
-    ridge = np.exp(-0.69 * np.abs(x / _drawn(y, 2)) ** 1.9)
+    ridge = np.exp(-0.69 * np.abs(x / _drawn(y, 2)) ** 2.3)
     total[:, 2] += _drawn(under, 1) * ridge * shown
     return total * 1e-3

@@ -185,8 +185,10 @@ class BigramEngine:
             return math.inf, -math.inf
         own = times - axis.block_of(times) * axis.width + axis.base
         soft = max(pose.softness for pose in self.plan.poses)
-        before = own[np.maximum(active - 1, 0)]
-        after = own[np.minimum(active + 1, len(times) - 1)]
+        # A B-spline is moved by keys up to two away.
+        reach = 2 if self.rules.settings.spline == "bspline" else 1
+        before = own[np.maximum(active - reach, 0)]
+        after = own[np.minimum(active + reach, len(times) - 1)]
         return float(before.min()) - soft, float(after.max()) + soft
 
     def keys(self, solved: Solved) -> dict[str, Keys]:

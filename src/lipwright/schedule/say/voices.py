@@ -128,11 +128,13 @@ def resolve(voice: str, installed: Sequence[Voice]) -> tuple[str, bool]:
     """
     base, plus, variant = voice.strip().partition("+")
     wanted = base.lower().replace("_", "-")
-    for name in dict.fromkeys([wanted, wanted.split("-")[0]]):
-        for candidate in installed:
-            known = (*candidate.languages, candidate.name, candidate.file)
-            if name in (other.lower() for other in known):
-                return candidate.file + plus + variant, name == wanted
+    for candidate in installed:
+        known = (*candidate.languages, candidate.name, candidate.file)
+        if wanted in (other.lower() for other in known):
+            return candidate.file + plus + variant, True
+    language = wanted.split("-")[0]
+    if any(language in candidate.languages for candidate in installed):
+        return library_name(language) + plus + variant, False
     return voice, False
 
 

@@ -1,0 +1,79 @@
+"""How sure an alignment is: goodness of pronunciation, and what it means.
+
+Per phone the mean, over its frames, of how much better or worse its own states fit the
+sound than the best of all phones without context (Witt & Young 2000). Right words lie
+near 0, wrong ones below -3. The mapping to 0..1 is a logistic function for phones, words
+and lines each; its constants were set where right and exchanged texts of recordings meet.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lipwright.schedule.align.heard import Heard
+from lipwright.schedule.align.model import STATES
+from lipwright.schedule.align.viterbi import Stretch
+
+# (margin at which right and wrong are as likely, steepness), nats per frame
+_PHONE = (-3.0, 0.8)
+_WORD = (-2.7, 1.2)
+_LINE = (-2.4, 2.5)
+DOUBTFUL = 0.5
+
+
+def margins(
+    path: Iterable[Stretch],
+    scores: NDArray[np.float32],
+    columns: NDArray[np.int64],
+    best: NDArray[np.float32],
+) -> tuple[float, ...]:
+    """Return, for each phone of a path, its mean margin in nats per frame.
+
+    Parameters
+    ----------
+    path : iterable of Stretch
+    scores : (T, U) float32
+        Log likelihoods of the states.
+    columns : (S,) int
+        Column of each state of the network.
+    best : (T,) float32
+        Log likelihood of the best phone of all.
+    """
+    result = []
+    for stretch in path:
+        frames = slice(stretch.start, stretch.end)
+        states = columns[STATES * stretch.node : STATES * stretch.node + STATES]
+        own = scores[frames][:, states].max(axis=1)
+        result.append(float((own - best[frames]).mean()))
+    return tuple(result)
+
+
+def phone_confidence(phone: Heard) -> float:
+    """Return how sure a phone is, 0..1."""
+    return _logistic(phone.margin, _PHONE)
+
+
+def word_confidence(phones: Iterable[Heard]) -> float:
+    """Return how sure a word of these phones is, 0..1."""
+    return _logistic(mean_margin(phones), _WORD)
+
+
+def line_confidence(phones: Iterable[Heard]) -> float:
+    """Return how sure a line of these phones is, 0..1."""
+    return _logistic(mean_margin(phones), _LINE)
+
+
+def mean_margin(phones: Iterable[Heard]) -> float:
+    """Return the margin over all frames of speech; minus infinity if there are none."""
+    speech = [(p.margin, p.end - p.start) for p in phones if not p.is_pause]
+    total = sum(weight for _, weight in speech)
+    return sum(m * weight for m, weight in speech) / total if total else -math.inf
+
+
+def _logistic(margin: float, constants: tuple[float, float]) -> float:
+    middle, steepness = constants
+    return round(1 / (1 + math.exp(min(60.0, -steepness * (margin - middle)))), 3)
