@@ -67,7 +67,7 @@ def chromium() -> Iterator[Browser]:
 @contextmanager
 def opened(browser: Browser, path: Path, **context: Any) -> Iterator[Opened]:
     """Open a page of Lipwright from disk; ``context`` is Playwright's (viewport, color_scheme)."""
-    window = browser.new_context(**{"viewport": {"width": 1280, "height": 720}, **context})
+    window = browser.new_context(**{"viewport": {"width": 800, "height": 600}, **context})
     window.set_default_timeout(PATIENCE)
     result = Opened(window.new_page())
     page = result.page

@@ -180,3 +180,33 @@ def save(performance: Performance, *paths: str | Path) -> None:
     from lipwright.export import save as write
 
     write(performance, *paths)
+
+
+def check_labels(*paths: str | Path) -> None:
+    """Refuse names of label files that could not be written, before any work is spent."""
+    from lipwright.export import check_outputs
+    from lipwright.schedule.labels import WRITERS
+
+    check_outputs(paths, tuple(WRITERS))
+
+
+def save_labels(speech: Speech, *paths: str | Path) -> None:
+    """Write the phones and words of speech, each path in the format of its suffix.
+
+    Raises
+    ------
+    InputError
+        If a suffix is unknown (.TextGrid .lab .ctm .phn .json).
+    OutputError
+        If a file cannot be written.
+    """
+    from lipwright.files import STANDARD_STREAM, write_output
+    from lipwright.schedule.labels import write_labels
+
+    check_labels(*paths)
+    encoded = []
+    for path in paths:
+        suffix = ".json" if str(path) == STANDARD_STREAM else Path(path).suffix.lower()
+        encoded.append((path, write_labels(speech, suffix)))
+    for path, data in encoded:
+        write_output(path, data)

@@ -99,11 +99,11 @@ def phones(
     import json
 
     from lipwright.cli.report import notes
-    from lipwright.schedule.labels import check_label_outputs, save_labels
+    from lipwright import pipeline
 
-    check_label_outputs(outputs)
+    pipeline.check_labels(*outputs)
     speech = _speech(sound, text, text_file, labels, phone_set, lexicon)
-    save_labels(speech, *outputs)
+    pipeline.save_labels(speech, *outputs)
     if as_json:
         facts = {
             "files": [path for path in outputs if path != STANDARD_STREAM],

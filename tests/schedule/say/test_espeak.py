@@ -1,6 +1,7 @@
 """The child program: found, started, stopped, and its failures told."""
 
 import os
+import shutil
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -54,8 +55,8 @@ def test_a_long_data_path_is_brought_near(monkeypatch: pytest.MonkeyPatch, tmp_p
     link = far / "espeak-ng-data"
     try:
         link.symlink_to(espeakng_loader.get_data_path(), target_is_directory=True)
-    except OSError:
-        pytest.fail("this system makes no links; run the test where it does")
+    except OSError:  # Windows lets few users make links
+        shutil.copytree(espeakng_loader.get_data_path(), link)
     usual = say("hello")
     monkeypatch.setattr(espeakng_loader, "get_data_path", lambda: str(link))
     again = say("hello")

@@ -66,7 +66,7 @@ def test_a_name_in_the_text_is_not_taken_for_a_place_in_the_program() -> None:
     ],
 )
 def test_letters_are_made_plain(text: str, spoken: str) -> None:
-    plain = festival.plain_script(prepare(text))
+    plain = festival.plain_utterance(prepare(text))
     assert plain.spoken == spoken
     assert plain.words == prepare(text).words
 

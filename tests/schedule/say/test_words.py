@@ -27,16 +27,16 @@ def test_what_is_spoken_of_a_text(text: str, spoken: str) -> None:
 
 
 def test_words_are_found_at_their_starts() -> None:
-    script = prepare('He said: "so—is it?"')
-    assert script.words == ("He", "said", "so", "is", "it")
-    assert [script.spoken[start:].lstrip('"')[0] for start in script.starts] == list("Hssii")
+    utterance = prepare('He said: "so—is it?"')
+    assert utterance.words == ("He", "said", "so", "is", "it")
+    assert [utterance.spoken[start:].lstrip('"')[0] for start in utterance.starts] == list("Hssii")
 
 
 def test_words_spoken_as_one_share_the_phones_by_their_letters() -> None:
-    script = prepare("of the best")
+    utterance = prepare("of the best")
     phones = [TimedPhone(label, n / 10, (n + 1) / 10, 0) for n, label in enumerate("ʌvðə")]
     phones += [TimedPhone("b", 0.4, 0.5, 7)]
-    tier = time_words(script, phones)
+    tier = time_words(utterance, phones)
     assert [(word.label, word.start, word.end) for word in tier] == [
         ("of", 0.0, 0.2),
         ("the", 0.2, 0.4),
@@ -60,13 +60,13 @@ def test_a_sign_that_is_not_spoken_is_no_word() -> None:
 @given(st.text())
 def test_any_text_is_prepared_or_refused(text: str) -> None:
     try:
-        script = prepare(text)
+        utterance = prepare(text)
     except TextError:
         return
-    script.spoken.encode()
-    assert len(script.words) == len(script.starts)
-    assert list(script.starts) == sorted(set(script.starts))
-    assert all(word for word in script.words)
+    utterance.spoken.encode()
+    assert len(utterance.words) == len(utterance.starts)
+    assert list(utterance.starts) == sorted(set(utterance.starts))
+    assert all(word for word in utterance.words)
 
 
 @given(

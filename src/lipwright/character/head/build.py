@@ -59,7 +59,14 @@ def build_head() -> tuple[Part, ...]:
             )
     points, triangles, share = tongue()
     parts.append(
-        _part("tongue", points, triangles, TONGUE, rigid(points, 0.92, tongue=share), shade(points, 0.040, 0.078))
+        _part(
+            "tongue",
+            points,
+            triangles,
+            TONGUE,
+            rigid(points, 0.92, tongue=share),
+            shade(points, 0.040, 0.078),
+        )
     )
     for name, side in (("left", 1.0), ("right", -1.0)):
         points, triangles, colors = eyeball(side)

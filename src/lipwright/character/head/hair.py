@@ -68,7 +68,10 @@ def hair() -> tuple[Floats, Indices, Floats]:
     base = loft(np.broadcast_to(angle, v.shape), v)
     thick = fullness * _thickness(base, sign, v)
     strands = _strands(angle * sign, v)
-    points = base + _outward(base) * ((thick + 0.9 * strands * np.clip(fullness, 0.0, 1.0)) * 1e-3)[..., None]
+    points = (
+        base
+        + _outward(base) * ((thick + 0.9 * strands * np.clip(fullness, 0.0, 1.0)) * 1e-3)[..., None]
+    )
     points[..., 0] *= sign
     crown = loft(0.0, 0.0) + (0.0, 0.0125, 0.0)
     grid = np.arange(points[..., 0].size).reshape(points.shape[:2])

@@ -76,7 +76,9 @@ def _paint_lids(loops: NDArray[np.intp], colors: Floats) -> None:
     upper = turn < 0.5
     lash = np.abs(np.sin(2 * np.pi * turn)) * np.where(upper, 1.0, 0.45)
     dark = np.array([[0.90, 0.82, 0.82], [0.34, 0.22, 0.20], [0.16, 0.09, 0.08], [0.2, 0.1, 0.1]])
-    pink = np.array([[0.96, 0.90, 0.89], [0.88, 0.70, 0.67], [0.80, 0.48, 0.45], [0.70, 0.36, 0.33]])
+    pink = np.array(
+        [[0.96, 0.90, 0.89], [0.88, 0.70, 0.67], [0.80, 0.48, 0.45], [0.70, 0.36, 0.33]]
+    )
     for number in range(4):
         shade = pink[number] + (dark[number] - pink[number]) * lash[:, None]
         colors[loops[LID_RIM + number]] *= shade

@@ -1,72 +1,81 @@
-"""Alignment: a sound and its words become phones in time."""
+"""Alignment: a sound and its words become phones in time.
+
+The acoustic model and the dictionary are those inside pocketsphinx (BSD). Its decoder is
+not used here: with its beams it refuses good recordings, and what it heard before changes
+what it hears next. An exact search over the same model (:mod:`.viterbi`) does neither.
+
+The way: text → tokens (:mod:`.text`, :mod:`.numbers`) → pronunciations (:mod:`.lexicon`)
+→ a network of phones (:mod:`.network`); sound → features (:mod:`.features`) → scores
+(:mod:`.scores`); both → the best path (:mod:`.viterbi`) → boundaries refined
+(:mod:`.refine`). Long sounds go piece by piece (:mod:`.walk`).
+"""
 
 from __future__ import annotations
 
-import re
-from collections.abc import Callable, Mapping
-from pathlib import Path
+from collections.abc import Callable
 
-import numpy as np
-
-from lipwright.errors import SoundError, TextError
-from lipwright.phones import PhoneTrack
+from lipwright.errors import SoundError
+from lipwright.schedule.align.lexicon import LexiconLike, pronounced
+from lipwright.schedule.align.model import STATES, load_model
+from lipwright.schedule.align.network import shortest
+from lipwright.schedule.align.prepare import prepared
+from lipwright.schedule.align.speech import as_speech, guessed_note
+from lipwright.schedule.align.text import tokens
+from lipwright.schedule.align.walk import walk
 from lipwright.sound import Sound
 from lipwright.speech import Speech
-from lipwright.timeline import Interval, Tier
+
+__all__ = ["align"]
 
 
 def align(
     sound: Sound,
     text: str,
     *,
-    lexicon: Path | Mapping[str, object] | None = None,
+    lexicon: LexiconLike = None,
     progress: Callable[[float], None] | None = None,
 ) -> Speech:
-    """Say when each phone of ``text`` sounds (thin version; the API stays)."""
-    import pocketsphinx as ps
-    import soxr
+    """Return when each phone of a text sounds.
 
-    words = re.findall(r"[a-z']+", text.lower())
-    if not words:
-        raise TextError("no words to align")
-    samples = sound.samples
-    if sound.rate != 16000:
-        samples = soxr.resample(samples, sound.rate, 16000)
-    noise = np.random.default_rng(0).normal(0, 1.5, len(samples))
-    raw = np.clip(samples * 32767 + noise, -32768, 32767).astype(np.int16).tobytes()
-    decoder = ps.Decoder(
-        lm=None, loglevel="FATAL", bestpath=False, beam=1e-200, wbeam=1e-200, pbeam=1e-200
-    )
-    decoder.set_align_text(" ".join(words))
+    The same sound and text give the same result, whatever was aligned before. For any
+    audible sound that is long enough for its words an alignment comes back; where the
+    words do not fit, its confidence says so.
 
-    def run() -> None:
-        decoder.reinit_feat()
-        decoder.start_utt()
-        try:
-            decoder.process_raw(raw, full_utt=True)
-        finally:
-            decoder.end_utt()
+    Parameters
+    ----------
+    sound : Sound
+        English speech, of any rate and length.
+    text : str
+        What is said, as people write it: numbers, dates, money and abbreviations too.
+    lexicon : path, mapping or None
+        Pronunciations of words: a file in the format of the CMU dictionary, or
+        ``{"lipwright": "L IH P R AY T"}``. They come before the dictionary's own.
+    progress : function, optional
+        Called with 0..1 as the sound is gone through.
 
-    run()
-    if decoder.hyp() is None:
-        raise SoundError("the words do not fit the sound")
-    decoder.set_alignment()
-    run()
-    phones: list[Interval] = []
-    heard: list[Interval] = []
-    end = sound.duration
-    for word in decoder.get_alignment():
-        start, stop = word.start / 100, min(end, (word.start + word.duration) / 100)
-        if not word.name.startswith("<"):
-            heard.append(Interval(re.sub(r"\(\d+\)$", "", word.name), start, stop))
-        for phone in word:
-            name = phone.name.lower()
-            label = "sil" if name == "sil" or name.startswith("+") else name
-            phones.append(
-                Interval(label, phone.start / 100, min(end, (phone.start + phone.duration) / 100))
-            )
-    if phones[-1].end < end:
-        phones.append(Interval("sil", phones[-1].end, end))
-    return Speech(
-        PhoneTrack(Tier(tuple(phones))), Tier(tuple(heard)), sound, text, "en-us", "align"
-    )
+    Returns
+    -------
+    Speech
+        Phones in ARPAbet without stress, ``sil`` where nothing is said, without gaps;
+        words as in ``text``; a confidence, 0..1, for each phone, word and the line.
+
+    Raises
+    ------
+    SoundError
+        If the sound is silent, or too short for the words.
+    TextError
+        If nothing can be spoken, a script is not Latin, or words have no known sounds.
+    """
+    written = tokens(text)
+    spoken, guessed = pronounced(written, lexicon)
+    samples = prepared(sound)
+    walked = walk(load_model(), samples, spoken, progress)
+    if not walked.phones:
+        raise SoundError(
+            f"{sound.duration:.3g} s is too short for {len(spoken)} words",
+            expected=f"{shortest(spoken) * STATES * 0.01:.2g} s or more",
+            cure="check that text and sound belong together",
+        )
+    labels = [token.label for token in spoken]
+    notes = guessed_note(guessed)
+    return as_speech(walked.phones, labels, sound, text=text, source="align", notes=notes)

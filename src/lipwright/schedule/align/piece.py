@@ -86,5 +86,3 @@ def _merged(phones: Sequence[Heard]) -> tuple[Heard, ...]:
         else:
             result.append(phone)
     return tuple(result)
-
-

@@ -18,7 +18,7 @@ from lipwright.schedule.say.voices import (
     resolve,
     unknown_voice,
 )
-from lipwright.schedule.say.words import Script, prepare
+from lipwright.schedule.say.words import Utterance, prepare
 from lipwright.speech import Speech
 
 __all__ = ["Voice", "say", "voices"]
@@ -81,11 +81,11 @@ def say(
         )
     if engine not in _ENGINES:
         raise InputError(f"no speech engine {engine!r}", expected=" or ".join(_ENGINES))
-    script = prepare(text)
+    utterance = prepare(text)
     if engine == "festival" or voice.split(":")[0] == "festival":
-        return _say_with_festival(script, text, voice, rate, pitch)
-    spoken, notes = _speak(script.spoken, voice, round(rate), pitch)
-    return from_espeak(spoken, script, text=text, notes=notes + _notes(script))
+        return _say_with_festival(utterance, text, voice, rate, pitch)
+    spoken, notes = _speak(utterance.spoken, voice, round(rate), pitch)
+    return from_espeak(spoken, utterance, text=text, notes=notes + _notes(utterance))
 
 
 def voices() -> list[Voice]:
@@ -110,7 +110,7 @@ def voices() -> list[Voice]:
 
 
 def _say_with_festival(
-    script: Script, text: str, voice: str, rate: float, pitch: float | None
+    utterance: Utterance, text: str, voice: str, rate: float, pitch: float | None
 ) -> Speech:
     if pitch is not None:
         raise InputError(
@@ -118,9 +118,9 @@ def _say_with_festival(
             expected="no pitch",
             cure="leave --pitch out, or use espeak",
         )
-    check_script(script.spoken, "en-us")
+    check_script(utterance.spoken, "en-us")
     name = "" if voice in ("festival", "en-us") else voice.removeprefix("festival:")
-    plain = festival.plain_script(script)
+    plain = festival.plain_utterance(utterance)
     return from_festival(festival.speak(plain, name, rate=rate), plain, text=text)
 
 
@@ -157,6 +157,6 @@ def _speak(
     return spoken, notes
 
 
-def _notes(script: Script) -> tuple[str, ...]:
-    long = [word for word in script.words if len(word) > _LONGEST_WORD]
+def _notes(utterance: Utterance) -> tuple[str, ...]:
+    long = [word for word in utterance.words if len(word) > _LONGEST_WORD]
     return tuple(f"only the beginning of {word[:20]!r}… was spoken" for word in long)

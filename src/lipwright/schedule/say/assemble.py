@@ -13,7 +13,7 @@ import numpy as np
 from lipwright.phones import SILENCE, PhoneTrack
 from lipwright.schedule.say import espeak, festival
 from lipwright.schedule.say.closures import begin_stops_at_closure
-from lipwright.schedule.say.words import Script, TimedPhone, nothing_to_say, time_words
+from lipwright.schedule.say.words import TimedPhone, Utterance, nothing_to_say, time_words
 from lipwright.sound import Sound
 from lipwright.speech import Speech
 from lipwright.timeline import Interval, Tier
@@ -26,9 +26,9 @@ _ALONE = {"ᵐ": "m", "ⁿ": "n", "ᵑ": "ŋ"}
 
 
 def from_espeak(
-    spoken: espeak.Spoken, script: Script, *, text: str, notes: tuple[str, ...] = ()
+    spoken: espeak.Spoken, utterance: Utterance, *, text: str, notes: tuple[str, ...] = ()
 ) -> Speech:
-    """Return the speech that a script became.
+    """Return the speech that an utterance became.
 
     Raises
     ------
@@ -41,7 +41,7 @@ def from_espeak(
     phones = _with_closures(sound, phones)
     return Speech(
         phones=_track(phones, "ipa"),
-        words=_words(script, phones),
+        words=_words(utterance, phones),
         sound=sound,
         text=text,
         language=spoken.language,
@@ -50,8 +50,8 @@ def from_espeak(
     )
 
 
-def from_festival(spoken: festival.Spoken, script: Script, *, text: str) -> Speech:
-    """Return the speech that a script became.
+def from_festival(spoken: festival.Spoken, utterance: Utterance, *, text: str) -> Speech:
+    """Return the speech that an utterance became.
 
     Raises
     ------
@@ -61,7 +61,7 @@ def from_festival(spoken: festival.Spoken, script: Script, *, text: str) -> Spee
     sound, phones = _with_silence(Sound(spoken.samples, spoken.rate), list(spoken.phones))
     return Speech(
         phones=_track(phones, "arpabet"),
-        words=_words(script, phones),
+        words=_words(utterance, phones),
         sound=sound,
         text=text,
         language="en-us",
@@ -93,8 +93,8 @@ def _track(phones: list[TimedPhone], phone_set: str) -> PhoneTrack:
     return PhoneTrack(Tier(tuple(intervals)), phone_set)
 
 
-def _words(script: Script, phones: list[TimedPhone]) -> Tier:
-    return time_words(script, [phone for phone in phones if phone.label != SILENCE])
+def _words(utterance: Utterance, phones: list[TimedPhone]) -> Tier:
+    return time_words(utterance, [phone for phone in phones if phone.label != SILENCE])
 
 
 def _with_silence(sound: Sound, phones: list[TimedPhone]) -> tuple[Sound, list[TimedPhone]]:

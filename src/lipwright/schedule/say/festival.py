@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 
 from lipwright.errors import LabelError, LipwrightError, MissingExtraError, TextError
 from lipwright.phones import load_phone_set
-from lipwright.schedule.say.words import Script, TimedPhone
+from lipwright.schedule.say.words import TimedPhone, Utterance
 
 _PATIENCE = 120.0  # seconds
 _USUAL_RATE = 175.0  # words per minute that a stretch of 1 stands for
@@ -87,8 +87,8 @@ class Spoken:
     phones: tuple[TimedPhone, ...]
 
 
-def speak(script: Script, voice: str, *, rate: float) -> Spoken:
-    """Return the sound and phones of a script that :func:`plain_script` made.
+def speak(utterance: Utterance, voice: str, *, rate: float) -> Spoken:
+    """Return the sound and phones of an utterance that :func:`plain_utterance` made.
 
     Raises
     ------
@@ -99,9 +99,9 @@ def speak(script: Script, voice: str, *, rate: float) -> Spoken:
     LipwrightError
         If it fails.
     """
-    if len(script.spoken) > _LONGEST_TEXT:
+    if len(utterance.spoken) > _LONGEST_TEXT:
         raise TextError(
-            f"{len(script.spoken):,} characters",
+            f"{len(utterance.spoken):,} characters",
             where="the text",
             expected=f"at most {_LONGEST_TEXT:,} for Festival",
             cure="say it in parts, or with espeak",
@@ -111,7 +111,7 @@ def speak(script: Script, voice: str, *, rate: float) -> Spoken:
     with tempfile.TemporaryDirectory(prefix="lipwright-") as folder:
         sound, out = Path(folder) / "a.wav", Path(folder) / "a.txt"
         program = build_program(
-            script.spoken, voice or _PREFERRED, stretch=_USUAL_RATE / rate, sound=sound, out=out
+            utterance.spoken, voice or _PREFERRED, stretch=_USUAL_RATE / rate, sound=sound, out=out
         )
         complaint = _run(program, Path(folder))
         report = out.read_text("latin-1") if out.exists() else ""
@@ -121,7 +121,7 @@ def speak(script: Script, voice: str, *, rate: float) -> Spoken:
         if not sound.exists() or "phone " not in report:
             raise LipwrightError(f"Festival failed: {complaint or 'no word'}")
         samples, samples_per_second = _read_sound(sound)
-        phones = parse_report(report, script.spoken, rate=samples_per_second, end=len(samples))
+        phones = parse_report(report, utterance.spoken, rate=samples_per_second, end=len(samples))
         return Spoken(samples, samples_per_second, phones)
 
 
@@ -137,12 +137,12 @@ def installed_voices() -> list[str]:
     return [line.split()[1] for line in lines]
 
 
-def plain_script(script: Script) -> Script:
-    """Return the script in plain Latin letters; the words stay as they were."""
-    edges = [*script.starts, len(script.spoken)]
-    parts = [_plain(script.spoken[start:end]) for start, end in pairwise(edges)]
+def plain_utterance(utterance: Utterance) -> Utterance:
+    """Return the utterance in plain Latin letters; the words stay as they were."""
+    edges = [*utterance.starts, len(utterance.spoken)]
+    parts = [_plain(utterance.spoken[start:end]) for start, end in pairwise(edges)]
     starts = [sum(map(len, parts[:index])) for index in range(len(parts))]
-    return Script("".join(parts), script.words, tuple(starts))
+    return Utterance("".join(parts), utterance.words, tuple(starts))
 
 
 def _plain(text: str) -> str:

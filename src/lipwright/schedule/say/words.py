@@ -30,7 +30,7 @@ _WITHOUT_SPACES = ("CJK", "HIRAGANA", "KATAKANA", "THAI", "LAO", "KHMER", "MYANM
 
 
 @dataclass(frozen=True, slots=True)
-class Script:
+class Utterance:
     """A text made ready to speak.
 
     Parameters
@@ -68,8 +68,8 @@ class TimedPhone:
     position: int
 
 
-def prepare(text: str) -> Script:
-    """Return the script of a text.
+def prepare(text: str) -> Utterance:
+    """Return what is spoken of a text.
 
     Raises
     ------
@@ -100,7 +100,7 @@ def prepare(text: str) -> Script:
     spoken = "".join(parts)
     if not any(_is_spoken(character) for character in spoken):
         raise nothing_to_say()
-    return Script(spoken, tuple(words), tuple(starts))
+    return Utterance(spoken, tuple(words), tuple(starts))
 
 
 def nothing_to_say() -> TextError:
@@ -156,7 +156,7 @@ def _is_spoken(character: str) -> bool:
     return category[0] in "LNS" or category == "Co" or character in _SPOKEN_SIGNS
 
 
-def time_words(script: Script, phones: Sequence[TimedPhone]) -> Tier:
+def time_words(utterance: Utterance, phones: Sequence[TimedPhone]) -> Tier:
     """Return when each word sounds, from its first phone to its last.
 
     Words that were spoken as one (``of the``) share the phones by their letters; a sign
@@ -164,12 +164,12 @@ def time_words(script: Script, phones: Sequence[TimedPhone]) -> Tier:
 
     Parameters
     ----------
-    script : Script
+    utterance : Utterance
         What was spoken.
     phones : sequence of TimedPhone
         Without silences, in order.
     """
-    words, starts = _with_inner_words(script, {phone.position for phone in phones})
+    words, starts = _with_inner_words(utterance, {phone.position for phone in phones})
     groups: dict[int, list[TimedPhone]] = {}
     latest = 0
     for phone in phones:
@@ -184,16 +184,18 @@ def time_words(script: Script, phones: Sequence[TimedPhone]) -> Tier:
     return Tier(tuple(intervals))
 
 
-def _with_inner_words(script: Script, positions: Iterable[int]) -> tuple[list[str], list[int]]:
+def _with_inner_words(
+    utterance: Utterance, positions: Iterable[int]
+) -> tuple[list[str], list[int]]:
     """Cut the words of scripts without spaces where the synthesiser began a new one."""
-    spoken = script.spoken
+    spoken = utterance.spoken
     inner = {
         position
         for position in positions
         if 0 <= position < len(spoken) and script_of(spoken[position]) in _WITHOUT_SPACES
     }
-    starts = sorted(inner.union(script.starts))
-    known = dict(zip(script.starts, script.words, strict=True))
+    starts = sorted(inner.union(utterance.starts))
+    known = dict(zip(utterance.starts, utterance.words, strict=True))
     words: list[str] = []
     for start, end in zip(starts, [*starts[1:], len(spoken)], strict=True):
         part = spoken[start:end].strip().strip(_AROUND)

@@ -1,0 +1,52 @@
+"""A sound made ready for the acoustic model: 16 kHz, audible, checked."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lipwright.errors import SoundError
+from lipwright.schedule.align.features import RATE
+from lipwright.sound import Sound
+
+_CHUNK = 1 << 20
+_INAUDIBLE = 1e-4  # -80 dB of full scale
+_QUIET = 0.1
+
+
+def prepared(sound: Sound) -> NDArray[np.float32]:
+    """Return the samples at 16 kHz, amplified where they are faint.
+
+    Long sounds are resampled in pieces: no more is held than the result.
+
+    Raises
+    ------
+    SoundError
+        If there are no samples, they are not finite, or all is silence.
+    """
+    if not len(sound.samples):
+        raise SoundError("the sound holds no samples", expected="speech")
+    loudest = float(max(np.abs(part).max() for part in _parts(sound.samples)))
+    if not np.isfinite(loudest):
+        raise SoundError("the sound holds samples that are not numbers", expected="-1..1")
+    if loudest < _INAUDIBLE:
+        raise SoundError("no speech in it: the sound is silent", expected="speech")
+    samples = _resampled(sound)
+    return samples * np.float32(_QUIET / loudest) if loudest < _QUIET else samples
+
+
+def _parts(samples: NDArray[np.float32]) -> list[NDArray[np.float32]]:
+    return [samples[i : i + _CHUNK] for i in range(0, len(samples), _CHUNK)]
+
+
+def _resampled(sound: Sound) -> NDArray[np.float32]:
+    samples = np.ascontiguousarray(sound.samples, np.float32)
+    if sound.rate == RATE:
+        return samples
+    import soxr  # only where the rates differ
+
+    stream = soxr.ResampleStream(sound.rate, RATE, 1, dtype="float32")
+    parts = _parts(samples)
+    last = len(parts) - 1
+    result = [stream.resample_chunk(part, last=index == last) for index, part in enumerate(parts)]
+    return np.concatenate(result)
