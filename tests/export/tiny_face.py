@@ -21,7 +21,7 @@ GAP = 0.004
 
 # name: (lowest y, highest y, how each morph target moves it along y)
 _PARTS: dict[str, tuple[float, float, dict[str, float]]] = {
-    "Skin": (0.05, 0.15, {"eyeBlinkLeft": -0.01, "eyeBlinkRight": -0.01, "browInnerUp": 0.01}),
+    "Skin": (0.015, 0.15, {"eyeBlinkLeft": -0.01, "eyeBlinkRight": -0.01, "browInnerUp": 0.01}),
     "UpperLip": (GAP / 2, 0.02, {"PBM": -GAP / 2, "open": 0.002}),
     "LowerLip": (-0.02, -GAP / 2, {"open": -0.03, "PBM": GAP / 2}),
 }

@@ -49,7 +49,7 @@ export class Stage {
     this.#renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true });
     this.#renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     this.#renderer.toneMapping = NeutralToneMapping;
-    this.#renderer.toneMappingExposure = 1;
+    this.#renderer.toneMappingExposure = 1.12;
     this.#renderer.shadowMap.enabled = true;
     this.#renderer.shadowMap.type = PCFShadowMap;
     this.#framing = framing(model.root, model.meshes, used);
@@ -155,7 +155,7 @@ export class Stage {
 
   #light(): void {
     this.#scene.add(new HemisphereLight(0xe3e9f2, 0x7a6458, 0.95));
-    this.#lamp(0xf2f4ff, 0.35, [-1.2, 0.1, 1]);
+    this.#lamp(0xf6f6ff, 0.6, [-1, -0.05, 1.2]);
     const key = this.#lamp(0xfff0e0, 1.9, [0.8, 0.9, 1.4]);
     const rim = this.#lamp(0xdbe7ff, 1.3, [-1.3, 0.3, -1]);
     this.#castShadow(key, 2048);

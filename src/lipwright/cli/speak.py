@@ -98,8 +98,8 @@ def phones(
     """Say when each phone and word of the recording SOUND sounds."""
     import json
 
-    from lipwright.cli.report import notes
     from lipwright import pipeline
+    from lipwright.cli.report import notes
 
     pipeline.check_labels(*outputs)
     speech = _speech(sound, text, text_file, labels, phone_set, lexicon)

@@ -23,15 +23,16 @@ RED = len(_SKIN_SHARES)  # number of the loop on the border, counted from the fi
 CONTACT = RED + 1 + len(_RED_SHARES)
 
 # The loops behind the contact (mm): half breadth, top, bottom, depth in the middle and at
-# the sides of the mouth (the dental arch between them is curved).
+# the sides of the mouth (the dental arch between them is curved), and how much farther
+# forward the upper half lies in the middle.
 _BAG = np.array(
     [
-        [27.3, -61.0, -76.0, 87.4, 73.0],
-        [29.0, -52.5, -85.0, 83.6, 64.0],
-        [31.0, -50.5, -89.5, 71.0, 57.0],
-        [32.0, -51.0, -91.5, 52.0, 47.0],
-        [26.0, -55.0, -90.0, 33.0, 32.0],
-        [13.0, -63.0, -84.0, 21.0, 21.0],
+        [28.0, -61.5, -76.5, 88.2, 73.0, 2.8],
+        [30.5, -51.5, -85.0, 84.6, 64.0, 4.0],
+        [32.0, -50.5, -89.5, 71.0, 57.0, 3.0],
+        [32.0, -51.0, -91.5, 52.0, 47.0, 0.0],
+        [26.0, -55.0, -90.0, 33.0, 32.0, 0.0],
+        [13.0, -63.0, -84.0, 21.0, 21.0, 0.0],
     ]
 )
 # The loops between: how far above and below the contact, and how far behind it (mm).
@@ -138,10 +139,11 @@ def _inner_lip(turn: Floats, meet: Floats, rise: float, depth: float) -> Floats:
 
 
 def _bag(turn: Floats, row: Floats) -> Floats:
-    breadth, top, bottom, middle_z, side_z = row
+    breadth, top, bottom, middle_z, side_z, ahead = row
     cosine = np.cos(np.pi * turn)
     x = breadth * np.sin(np.pi * turn) ** 0.9
     level = CORNER[1]
     y = level + np.where(cosine > 0, top - level, level - bottom) * cosine
     z = middle_z + (side_z - middle_z) * (x / breadth) ** 2
+    z = z + ahead * np.clip(cosine, 0.0, 1.0)
     return np.stack([x, y, z], axis=1)

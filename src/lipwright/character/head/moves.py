@@ -68,8 +68,10 @@ def lower(part: Anatomy, power: float = 1.0) -> Floats:
 
 
 def _lip(side: Floats, power: float) -> Floats:
-    """Return 1 - (1 - side) ** (1 / power): unlike a root, without a cleft at the corner."""
-    return np.asarray(1.0 - (1.0 - np.clip(side, 0.0, 1.0)) ** (1.0 / power), np.float64)
+    """Return a rise from 0 at the corners without a cleft there to 1 in the middle."""
+    rise = np.clip(side, 0.0, 1.0)
+    rise = rise * rise * (3.0 - 2.0 * rise)
+    return np.asarray(1.0 - (1.0 - rise) ** (1.0 / power), np.float64)
 
 
 def corner(part: Anatomy, power: float = 1.0) -> Floats:

@@ -71,12 +71,12 @@ def pressed(part: Anatomy) -> list[Move]:
     return [
         shift(upper(part) * outside, y=-1.5, z=-0.6),
         shift(lower(part) * outside, y=1.8, z=-0.4),
-        shift((upper(part, 0.5) + lower(part, 0.5)) * red, z=-2.6),
+        shift((upper(part, 0.5) + lower(part, 0.5)) * red, z=-2.2),
         shift(part.near * seam, z=-1.0),
         shift(part.near * red, y=0.2),
         shift(corner(part), z=-0.6),
         spread(part, part.near, 0.8),
-        shift(part.flap, y=5.0, z=-2.0),
+        shift(part.flap, y=5.0, z=1.8),
     ]
 
 
@@ -86,8 +86,8 @@ def tucked(part: Anatomy) -> list[Move]:
     low = lower(part, 0.6)
     return [
         *jaw(part, 1.5),
-        shift(low * red, y=0.8, z=-8.2),
-        shift(lower(part) * (1 - red), y=2.6, z=-3.4),
+        shift(low * red, y=0.6, z=-4.9),
+        shift(lower(part) * (1 - red), y=2.4, z=-1.8),
         shift(lower(part) * np.sin(np.pi * red), y=1.6, z=-0.5),
         shift(part.flap, y=-2.0),
         shift(upper(part, 0.9), y=1.6),
@@ -102,7 +102,6 @@ def spread_wide(part: Anatomy) -> list[Move]:
     return [
         spread(part, sides, 6.5),
         shift(corner(part, 0.7), y=1.0, z=-4.0),
-        shift(part.near * (1.0 - np.abs(part.side)) * 0, z=0.0),
         shift((upper(part) + lower(part)), z=-1.2),
         shift(upper(part) * (1 - red), y=-0.6),
         shift(lower(part) * (1 - red), y=0.9),
@@ -118,12 +117,12 @@ def tongue_back(part: Anatomy) -> list[Move]:
 def tongue_roof(part: Anatomy) -> list[Move]:
     """`tRoof`: the tip touches the ridge behind the upper teeth."""
     tip = _tip(part, 0.45)
-    return [shift(tip, y=14.5, z=-0.5), turn(tip, -14.0, _X, (0.0, -0.074, 0.056))]
+    return [shift(tip, y=14.5, z=3.0), turn(tip, -14.0, _X, (0.0, -0.074, 0.056))]
 
 
 def tongue_teeth(part: Anatomy) -> list[Move]:
     """`tTeeth`: the tip comes between the teeth."""
-    return [shift(_tip(part, 0.1), z=11.0), shift(_tip(part, 0.3), y=9.0)]
+    return [shift(_tip(part, 0.1), z=15.0), shift(_tip(part, 0.3), y=9.0)]
 
 
 def _tip(part: Anatomy, start: float) -> np.ndarray[tuple[int], np.dtype[np.float64]]:

@@ -58,7 +58,10 @@ def build_skin() -> Skin:
     end = np.stack([mouth[-1, :-1], np.full(mouth.shape[1] - 1, back), mouth[-1, 1:]], axis=1)
     half = np.concatenate([_split(points, quads), net.cap, end])
     half = half[_has_area(points, half)]
-    return _mirrored(points, half, mouth, eye)
+    used = np.unique(half)
+    place = np.zeros(len(points), dtype=np.intp)
+    place[used] = np.arange(len(used))
+    return _mirrored(points[used], place[half], place[mouth], place[eye])
 
 
 def _between(loops: Indices) -> Indices:

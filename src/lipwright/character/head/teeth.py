@@ -49,19 +49,19 @@ UPPER = Row(
     -70.2,
     -61.2,
     -53.0,
-    26.5,
+    28.5,
     40.0,
-    43.0,
+    48.0,
 )
 LOWER = Row(
     (5.3, 5.9, 6.8, 7.0, 7.0, 10.5),
     (0.3, 0.2, 0.6, 0.3, 0.0, 0.0),
     -72.6,
     -80.8,
-    -89.5,
-    24.6,
-    37.5,
-    42.6,
+    -84.5,
+    26.0,
+    38.0,
+    45.6,
 )
 
 _ACROSS = np.array([0.0, 0.14, 0.5, 0.86])  # stations on one tooth
@@ -73,7 +73,7 @@ _PROFILE = np.array(
     [[-0.12, -0.5], [0.12, 0.35], [0.55, 0.5], [0.93, 0.0], [1.0, -0.7], [0.85, -1.9], [0.0, -3.2]]
 )
 # Down the gum: share of the way from root to margin, and how far outward.
-_GUM = np.array([[0.0, -1.0], [0.5, 0.9], [0.88, 1.1], [1.06, 0.2]])
+_GUM = np.array([[0.0, -3.0], [0.5, 0.9], [0.88, 1.1], [1.06, 0.2]])
 
 
 def _stations(row: Row) -> tuple[Floats, Floats, Floats, Floats, Floats]:

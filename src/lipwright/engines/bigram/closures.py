@@ -13,11 +13,8 @@ from collections.abc import Mapping
 import numpy as np
 
 from lipwright.engines.bigram.polyline import Floats, range_max
-from lipwright.engines.bigram.preparation import ROUNDING, Spans
+from lipwright.engines.bigram.preparation import Spans
 from lipwright.engines.bigram.stages import Stages
-
-# Closing small gaps may have moved a phone's ends by half of what counts as rounding.
-INSIDE = 0.5 * ROUNDING
 
 
 def keep_closures(
@@ -47,12 +44,12 @@ def keep_closures(
         mine = np.flatnonzero([reach.get(label) == pose for label in spans.labels])
         if not len(mine):
             continue
-        starts, ends = spans.starts[mine], spans.ends[mine]
+        starts, ends = spans.heard[mine].T
         peaks = _peaks(stages, pose, starts, ends)
         for start, end, peak in zip(starts.tolist(), ends.tolist(), peaks.tolist(), strict=True):
-            low = math.ceil((start + INSIDE - first) * rate)
-            high = math.ceil((end - INSIDE - first) * rate)
-            if high <= low:  # no frame surely within: the one nearest to its middle
+            low = math.ceil((start - first) * rate - 1e-9)
+            high = math.ceil((end - first) * rate - 1e-9)
+            if high <= low:  # no frame within: the nearest one
                 low = round((0.5 * (start + end) - first) * rate)
                 high = low + 1
             low, high = max(low, 0), min(high, count)

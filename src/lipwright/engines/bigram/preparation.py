@@ -32,6 +32,8 @@ class Spans:
         Seconds of each phone; there are no gaps.
     origins : (N,) int
         Which phone of the input each one is; -1 for silences that were put in.
+    heard : (N, 2) float64
+        Start and end of each phone before small gaps were closed.
     first, boundary, last : (N - 1,) float64
         Seconds of each bigram: of its silence only the part next to the phone.
     """
@@ -40,6 +42,7 @@ class Spans:
     starts: Floats
     ends: Floats
     origins: Ints
+    heard: Floats
     first: Floats
     boundary: Floats
     last: Floats
@@ -67,10 +70,11 @@ def prepare(phones: Sequence[Row], padding: float, silence_reach: float) -> Span
         If a phone has no length: it names it.
     """
     if not phones:
-        return _spans(_Line([], [], [], []), silence_reach)
+        return _spans(_Line([], [], [], []), np.zeros((0, 2)), silence_reach)
     line = _Line([], [], [], [])
     starts = np.array([start for _, start, _ in phones], dtype=np.float64)
     ends = np.array([end for _, _, end in phones], dtype=np.float64)
+    heard = np.stack((starts, ends), axis=1)
     gaps = starts[1:] - ends[:-1]
     close = (gaps != 0) & (gaps < ROUNDING)
     middles = 0.5 * (starts[1:] + ends[:-1])[close]
@@ -88,7 +92,7 @@ def prepare(phones: Sequence[Row], padding: float, silence_reach: float) -> Span
         line.insert_before(padding)
     if line.labels and line.labels[-1] != SILENCE:
         line.add(SILENCE, line.ends[-1], line.ends[-1] + padding, -1)
-    return _spans(line, silence_reach)
+    return _spans(line, heard, silence_reach)
 
 
 @dataclass(slots=True)
@@ -121,7 +125,7 @@ class _Line:
         self.origins.insert(0, -1)
 
 
-def _spans(line: _Line, silence_reach: float) -> Spans:
+def _spans(line: _Line, given: Floats, silence_reach: float) -> Spans:
     starts = np.array(line.starts, dtype=np.float64)
     ends = np.array(line.ends, dtype=np.float64)
     silent = np.array([label == SILENCE for label in line.labels], dtype=bool)
@@ -130,4 +134,7 @@ def _spans(line: _Line, silence_reach: float) -> Spans:
     first[before] = np.maximum(first[before], boundary[before] - silence_reach)
     last[after] = np.minimum(last[after], boundary[after] + silence_reach)
     origins = np.array(line.origins, dtype=np.int64)
-    return Spans(tuple(line.labels), starts, ends, origins, first, boundary, last)
+    heard = np.stack((starts, ends), axis=1)
+    known = origins >= 0
+    heard[known] = given[origins[known]]
+    return Spans(tuple(line.labels), starts, ends, origins, heard, first, boundary, last)

@@ -94,26 +94,27 @@ def _without_noise(bands: NDArray[np.float64]) -> NDArray[np.float64]:
 
 def _lower_envelope(value: NDArray[np.float64], floor: NDArray[np.float64]) -> NDArray[np.float64]:
     keep = np.where(value >= floor, 0.995, 0.5)
-    return keep * floor + (1 - keep) * value
+    return np.asarray(keep * floor + (1 - keep) * value)
 
 
 @cache
 def _neighbours() -> NDArray[np.float64]:
     apart = np.abs(np.subtract.outer(np.arange(BANDS), np.arange(BANDS)))
     near = (apart <= 4).astype(np.float64)
-    return near / near.sum(axis=1, keepdims=True)
+    return np.asarray(near / near.sum(axis=1, keepdims=True))
 
 
 @cache
 def _mel_bands() -> NDArray[np.float64]:
-    mel = np.linspace(*(2595 * np.log10(1 + f / 700) for f in (_LOWEST, _HIGHEST)), BANDS + 2)
+    lowest, highest = (2595 * np.log10(1 + f / 700) for f in (_LOWEST, _HIGHEST))
+    mel = np.linspace(lowest, highest, BANDS + 2)
     bin_width = RATE / _FFT
     edges = np.round(700 * (10 ** (mel / 2595) - 1) / bin_width) * bin_width
     low, middle, high = (edges[i : BANDS + i, None] for i in range(3))
     frequency = np.arange(_FFT // 2 + 1) * bin_width
     rising = (frequency - low) / (middle - low)
     falling = (high - frequency) / (high - middle)
-    return np.maximum(0.0, np.minimum(rising, falling)) * 2 / (high - low)
+    return np.asarray(np.maximum(0.0, np.minimum(rising, falling)) * 2 / (high - low))
 
 
 @cache

@@ -206,7 +206,7 @@ def _weights(path: Path, senones: int) -> NDArray[np.float32]:
         )
     steps = np.frombuffer(data, np.uint8, streams * gaussians * columns, at)
     lookup = np.exp(-_NEPER_PER_STEP * np.arange(256)).astype(np.float32)
-    return lookup[steps].reshape(streams, gaussians, columns)
+    return np.asarray(lookup[steps].reshape(streams, gaussians, columns), np.float32)
 
 
 def _definition(

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,7 +22,7 @@ Stage = Callable[[Phones, NDArray[np.float32]], Phones]
 
 _STEP = 80  # samples between two levels: 5 ms
 _SHORTEST = 0.01  # s that a moved boundary leaves of a phone
-_STOPS = frozenset("p t k b d g ch jh".split())
+_STOPS = frozenset(("p", "t", "k", "b", "d", "g", "ch", "jh"))
 _CLOSURE = 0.08  # s; a shorter pause before a stop is its closure
 _EDGE = 0.35  # of the way from the pause's level to the phrase's, in decibels
 _OVERSHOOT = 0.04  # s that a phrase may reach beyond its decoded end
@@ -71,21 +72,21 @@ def closures(phones: Phones, samples: NDArray[np.float32]) -> Phones:
     """Give a short pause before a stop to the stop: it is its closure."""
     result: list[Heard] = []
     for phone in phones:
-        before = result[-1] if result else None
-        inside = len(result) > 1
-        if before and inside and before.is_pause and phone.label in _STOPS:
-            if before.end - before.start < _CLOSURE:
-                result[-1] = replace(phone, start=before.start)
-                continue
+        if len(result) > 1 and phone.label in _STOPS and _is_closure(result[-1]):
+            phone = replace(phone, start=result.pop().start)
         result.append(phone)
     return tuple(result)
+
+
+def _is_closure(pause: Heard) -> bool:
+    return pause.is_pause and pause.end - pause.start < _CLOSURE
 
 
 def phrase_edges(phones: Phones, samples: NDArray[np.float32]) -> Phones:
     """Begin and end phrases where the sound rises from, and falls to, the pause's level."""
     level = _level(samples)
     edges = _edges(phones)
-    for index, (before, phone) in enumerate(zip(phones, phones[1:], strict=False), 1):
+    for index, (before, phone) in enumerate(pairwise(phones), 1):
         if before.is_pause and not phone.is_pause:
             edges[index] = _rise(level, before, phone, _reach_right(phones, index))
         elif phone.is_pause and not before.is_pause:
@@ -96,7 +97,7 @@ def phrase_edges(phones: Phones, samples: NDArray[np.float32]) -> Phones:
 def usual_bias(phones: Phones, samples: NDArray[np.float32]) -> Phones:
     """Take out what the model usually errs at a kind of boundary."""
     edges = _edges(phones)
-    for index, (before, phone) in enumerate(zip(phones, phones[1:], strict=False), 1):
+    for index, (before, phone) in enumerate(pairwise(phones), 1):
         kinds = (_KIND.get(before.label, ""), _KIND.get(phone.label, ""))
         edges[index] += _BIAS.get(kinds, 0.0)
     return _with_edges(phones, edges)

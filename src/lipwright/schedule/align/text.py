@@ -170,8 +170,8 @@ def _forms(core: str, before: str, after: str, *, shouting: bool) -> Forms:
 def _spelled(letters: str) -> Form:
     plural = re.fullmatch(r"([A-Z]+)'?s", letters)
     if plural:
-        *head, last = plural[1].lower()
-        return (*head, f"{last}'s")
+        spelled = plural[1].lower()
+        return (*spelled[:-1], f"{spelled[-1]}'s")
     return tuple(c for c in letters.lower() if c.isalpha())
 
 
