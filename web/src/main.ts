@@ -2,22 +2,22 @@
 
 import "./style.css";
 import { publish, type Parts } from "./api.ts";
+import { keysOf, SPEEDS, step, toggleMute } from "./commands.ts";
 import { peaks, sample } from "./curves.ts";
 import { block, fromBase64, performanceOf, wholeOf, type Performance } from "./document.ts";
 import { clockTime } from "./format.ts";
 import { blink } from "./idle.ts";
-import { describe, listen, type Key } from "./keyboard.ts";
+import { describe, listen } from "./keyboard.ts";
 import { Legend } from "./legend.ts";
 import { loadModel, type Model } from "./model.ts";
 import { notes, summary } from "./notes.ts";
 import { Player } from "./player.ts";
-import { middle, neighbour, spanAt } from "./spans.ts";
+import { spanAt } from "./spans.ts";
 import { Stage, VIEWS } from "./stage.ts";
 import { Timeline, type Shown } from "./timeline.ts";
 import { Voice } from "./voice.ts";
 import { peaksOf, readWav } from "./wav.ts";
 
-const SPEEDS = [0.25, 0.5, 0.75, 1];
 const LIDS = ["eyeBlinkLeft", "eyeBlinkRight"];
 
 const element = <Kind extends HTMLElement>(id: string) => document.getElementById(id) as Kind;
@@ -129,13 +129,13 @@ function writeTexts(performance: Performance): void {
     mark.textContent = noted;
     about.append(" · ", mark);
   }
-  about.addEventListener("click", () => element<HTMLDialogElement>("notes").showModal());
+  about.addEventListener("click", () => show("notes"));
   for (const [name, words] of notes(performance, whole.end - whole.start)) {
     const term = document.createElement("dt");
     term.textContent = name;
-    const words_ = document.createElement("dd");
-    words_.textContent = words;
-    element("note-list").append(term, words_);
+    const content = document.createElement("dd");
+    content.textContent = words;
+    element("note-list").append(term, content);
   }
   element("clock").append("", document.createElement("small"));
   const slider = element("timeline");
@@ -144,8 +144,10 @@ function writeTexts(performance: Performance): void {
 }
 
 function addViews(made: Stage): void {
-  Object.entries(VIEWS).forEach(([name, { label }], index) => {
-    const button = segment(label, `${label} (${index + 1})`, () => made.setView(name, true));
+  Object.entries(VIEWS).forEach(([name, view], index) => {
+    const button = segment(view.label, `${view.name} (${index + 1})`, () => {
+      made.setView(name, true);
+    });
     button.dataset["view"] = name;
     element("views").append(button);
   });
@@ -160,13 +162,13 @@ function addTransport(): void {
   const click = (id: string, act: () => void) => element(id).addEventListener("click", act);
   click("play", () => player.toggle());
   click("home", () => player.seek(whole.start));
-  click("back", () => step(-1));
-  click("on", () => step(1));
+  click("back", () => step(player, performed.controls, -1));
+  click("on", () => step(player, performed.controls, 1));
   click("loop", () => player.setLooping(!player.looping));
-  click("mute", toggleMute);
+  click("mute", () => toggleMute(player));
   click("all", () => legend.toggleAll());
   click("blink", () => setIdle(!idle));
-  click("keys", help);
+  click("keys", () => show("help"));
   for (const speed of SPEEDS) {
     const button = segment(`${speed}×`, `Speed ${speed}`, () => player.setSpeed(speed));
     button.dataset["speed"] = String(speed);
@@ -190,125 +192,27 @@ function segment(label: string, title: string, act: () => void): HTMLButtonEleme
   const button = document.createElement("button");
   button.type = "button";
   button.textContent = label;
-  button.title = title;
+  button.title = button.ariaLabel = title;
   button.addEventListener("click", act);
   return button;
 }
 
-function toggleMute(): void {
-  player.setMuted(!player.voice?.muted);
-}
-
-function help(): void {
-  element<HTMLDialogElement>("help").showModal();
-}
-
-/** Pause, and go by whole frames. */
-function step(frames: number): void {
-  player.pause();
-  const { rate, start } = performed.controls;
-  const frame = Math.round((player.time() - start) * rate) + frames;
-  player.seek(start + frame / rate, true);
-}
-
-function jump(marks: number[], way: 1 | -1): void {
-  player.pause();
-  const mark = neighbour(marks, player.time(), way);
-  if (mark !== undefined) player.seek(mark, true);
-}
-
-function changeSpeed(way: 1 | -1): void {
-  const next = SPEEDS[SPEEDS.indexOf(player.speed) + way];
-  if (next) player.setSpeed(next);
-}
-
-/** Set one end of the part that is looped. */
-function mark(end: "start" | "end"): void {
-  const range = { ...(player.range ?? whole), [end]: player.time() };
-  if (range.start < range.end) player.setRange(range);
+function show(dialog: "help" | "notes"): void {
+  element<HTMLDialogElement>(dialog).showModal();
 }
 
 function addKeys(): void {
-  const { phones, words } = performed;
-  const middles = phones.map(middle);
-  const starts = words.map(({ start }) => start);
-  const names = Object.keys(VIEWS);
-  const table: Key[] = [
-    { keys: [" ", "k"], shown: ["Space"], does: "play, pause", act: () => player.toggle() },
-    {
-      keys: ["ArrowLeft", "ArrowRight"],
-      shown: ["←", "→"],
-      does: "a frame back, on",
-      act: (key) => step(key === "ArrowLeft" ? -1 : 1),
-    },
-    {
-      keys: ["Shift+ArrowLeft", "Shift+ArrowRight"],
-      shown: ["Shift ←", "Shift →"],
-      does: "ten frames",
-      act: (key) => step(key === "ArrowLeft" ? -10 : 10),
-    },
-    {
-      keys: ["ArrowUp", "ArrowDown"],
-      shown: ["↑", "↓"],
-      does: "phone before, next phone",
-      act: (key) => jump(middles, key === "ArrowUp" ? -1 : 1),
-    },
-    {
-      keys: ["PageUp", "PageDown", "Shift+ArrowUp", "Shift+ArrowDown"],
-      shown: ["Page ↑", "Page ↓"],
-      does: "word before, next word",
-      act: (key) => jump(starts, key.endsWith("Up") ? -1 : 1),
-    },
-    { keys: ["Home"], shown: ["Home"], does: "to the start", act: () => player.seek(whole.start) },
-    { keys: ["End"], shown: ["End"], does: "to the end", act: () => player.seek(whole.end) },
-    { keys: ["l"], shown: ["L"], does: "loop", act: () => player.setLooping(!player.looping) },
-    { keys: ["i"], shown: ["I"], does: "loop from here", act: () => mark("start") },
-    { keys: ["o"], shown: ["O"], does: "loop up to here", act: () => mark("end") },
-    { keys: ["Escape"], shown: ["Esc"], does: "loop the whole", act: () => player.setRange(null) },
-    { keys: ["["], shown: ["["], does: "slower", act: () => changeSpeed(-1) },
-    { keys: ["]"], shown: ["]"], does: "faster", act: () => changeSpeed(1) },
-    { keys: ["m"], shown: ["M"], does: "mute", act: toggleMute },
-    {
-      keys: names.map((_, index) => String(index + 1)),
-      shown: names.map((_, index) => String(index + 1)),
-      does: "front, three-quarter, side, mouth, mouth from aside",
-      act: (key) => stage?.setView(names[Number(key) - 1], true),
-    },
-    {
-      keys: ["a", "d", "w", "s"],
-      shown: ["A", "D", "W", "S"],
-      does: "turn the head",
-      act: (key) => turn(key),
-    },
-    {
-      keys: ["q", "e"],
-      shown: ["Q", "E"],
-      does: "farther, nearer",
-      act: (key) => stage?.turn(0, 0, key === "q" ? 1.08 : 1 / 1.08),
-    },
-    { keys: ["b"], shown: ["B"], does: "blink", act: () => setIdle(!idle) },
-    {
-      keys: ["+", "=", "-", "0"],
-      shown: ["+", "−", "0"],
-      does: "zoom the timeline, show all of it",
-      act: (key) => (key === "0" ? timeline.fit() : timeline.zoom(key === "-" ? 1.25 : 0.8)),
-    },
-    { keys: ["v"], shown: ["V"], does: "all curves, none", act: () => legend.toggleAll() },
-    {
-      keys: ["n"],
-      shown: ["N"],
-      does: "how this was made",
-      act: () => element<HTMLDialogElement>("notes").showModal(),
-    },
-    { keys: ["?"], shown: ["?"], does: "these keys", act: help },
-  ];
+  const table = keysOf({
+    performed,
+    player,
+    timeline,
+    legend,
+    stage: () => stage,
+    toggleBlink: () => setIdle(!idle),
+    show,
+  });
   listen(table);
   describe(element("key-list"), table);
-}
-
-function turn(key: string): void {
-  const [azimuth, elevation] = { a: [-6, 0], d: [6, 0], w: [0, 5], s: [0, -5] }[key] ?? [0, 0];
-  stage?.turn(azimuth, elevation);
 }
 
 function watch(): void {

@@ -101,9 +101,12 @@ export class Player {
     this.#announce();
   }
 
-  /** Pause at the end; to be called once for each picture. */
+  /** Pause or begin again at the end; to be called once for each picture. */
   update(): void {
-    if (this.playing && this.#clock.ended && !this.#clock.loop) this.pause();
+    if (!this.playing || !this.#clock.ended) return;
+    const { loop } = this.#clock;
+    if (loop) this.seek(loop.start);
+    else this.pause();
   }
 
   #loop(): Range | null {

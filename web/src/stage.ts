@@ -20,6 +20,7 @@ const FIELD_OF_VIEW = 22;
 const GLIDE = 260;
 
 interface View {
+  name: string;
   label: string;
   /** Degrees from the front, towards the model's left, and above the horizon. */
   azimuth: number;
@@ -28,11 +29,17 @@ interface View {
 }
 
 export const VIEWS: Record<string, View> = {
-  front: { label: "Front", azimuth: 0, elevation: 1, part: "head" },
-  "three-quarter": { label: "¾", azimuth: 38, elevation: 3, part: "head" },
-  side: { label: "Side", azimuth: 90, elevation: 0, part: "head" },
-  mouth: { label: "Mouth", azimuth: 0, elevation: 0, part: "mouth" },
-  "mouth-side": { label: "Mouth ¾", azimuth: 52, elevation: 2, part: "mouth" },
+  front: { name: "Front", label: "Front", azimuth: 0, elevation: 1, part: "head" },
+  "three-quarter": { name: "Three-quarter", label: "¾", azimuth: 38, elevation: 3, part: "head" },
+  side: { name: "Side", label: "Side", azimuth: 90, elevation: 0, part: "head" },
+  mouth: { name: "Mouth", label: "Mouth", azimuth: 0, elevation: 0, part: "mouth" },
+  "mouth-side": {
+    name: "Mouth, three-quarter",
+    label: "Mouth ¾",
+    azimuth: 52,
+    elevation: 2,
+    part: "mouth",
+  },
 };
 
 export class Stage {

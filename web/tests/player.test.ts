@@ -79,6 +79,20 @@ test("a chosen part is looped from its start, at the chosen speed", (t) => {
   assert.ok(!player.playing);
 });
 
+test("played from behind the part that is looped, it comes back to it at the end", (t) => {
+  const { speaker, player } = playing(t);
+  player.setRange({ start: 0.5, end: 1 });
+  player.play();
+  player.seek(1.5);
+  speaker.now += 0.4;
+  player.update();
+  assert.ok(Math.abs(player.time() - 1.9) < 1e-9);
+  speaker.now += 0.2;
+  player.update();
+  assert.equal(player.time(), 0.5);
+  assert.ok(player.playing);
+});
+
 test("a loudspeaker whose time stands still is left, and the time goes on", (t) => {
   const { player } = playing(t);
   player.play();

@@ -56,7 +56,7 @@ def displacement(positions: Floats, moves: Iterable[Move], intensity: float = 1.
     for move in moves:
         total += intensity * move.translation
         if move.turn is not None:
-            total += _turned(positions, move, intensity)
+            total += _turned(positions, move, move.turn, intensity)
     return total
 
 
@@ -75,13 +75,13 @@ def flattening(positions: Floats, moves: Sequence[Move], intensity: float = 0.5)
     return float(np.linalg.norm(linear - true, axis=1).max())
 
 
-def _turned(positions: Floats, move: Move, intensity: float) -> Floats:
+def _turned(positions: Floats, move: Move, turn: Floats, intensity: float) -> Floats:
     """Return the displacement of the rotation alone (Rodrigues' formula)."""
-    assert move.turn is not None
-    axis = np.asarray(move.axis)
-    angle = (intensity * move.turn)[:, None]
-    arm = positions - move.pivot
-    across = np.cross(axis, arm)
-    return np.asarray(
-        across * np.sin(angle) + np.cross(axis, across) * (1.0 - np.cos(angle)), np.float64
-    )
+    total = np.zeros_like(positions)
+    turning = np.flatnonzero(turn)
+    angle = (intensity * turn[turning])[:, None]
+    axis = np.array(move.axis)
+    cross = np.cross(axis, np.eye(3))  # rows times this: axis x row
+    across = (positions[turning] - move.pivot) @ cross
+    total[turning] = across * np.sin(angle) + (across @ cross) * (1.0 - np.cos(angle))
+    return total

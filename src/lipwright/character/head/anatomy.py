@@ -20,12 +20,14 @@ from lipwright.character.head.skin import Skin
 Floats = NDArray[np.float64]
 
 _MOUTH_Y = CORNER[1]
-# Per loop from the window's edge inward: how far `side` is counted along the loop.
-_ALONG = np.array([0.0, 0.3, 0.6, 0.85, 0.97] + [1.0] * 12)
-# Loops behind the contact follow the lips less and less.
-# Loops of the lids, from the window's edge to behind the rim.
-_LID_SHARES = np.array([0.0, 0.10, 0.32, 0.62, 0.88, 1.0, 1.0, 1.0])
-_FOLLOW = np.array([1.0, 0.95, 0.7, 0.3, 0.06, 0.0, 0.0, 0.0])
+# Loops of the mouth from the window's edge inward: how far `side` is counted along the loop.
+_ALONG = np.array([0.0, 0.3, 0.6, 0.85, 0.97, *[1.0] * 12])[:, None]
+# ... how red they are,
+_REDNESS = np.concatenate([np.zeros(RED + 2), np.array([1, 2, 3]) / 3, np.ones(8)])[:, None]
+# ... and how the loops behind the contact follow the lips, less and less.
+_FOLLOW = np.array([1.0, 0.95, 0.7, 0.3, 0.06, 0.0, 0.0, 0.0])[:, None]
+# Loops of the lids, from the window's edge to behind the rim: how far they close.
+_CLOSING = np.array([0.0, 0.10, 0.32, 0.62, 0.88, 1.0, 1.0, 1.0])[:, None]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -118,49 +120,40 @@ def _jaw(points: Floats, side: Floats, away: Floats) -> Floats:
     x, y, z = points.T
     # Below a line from the ear's lobe to the corner of the mouth, in front of the ear,
     # above the middle of the neck.
-    line = -0.040 + (z - 0.0) * (-0.028 / 0.08)
+    line = -0.040 - 0.35 * z
     cheek = step(0.014, -0.030, y - line)
     back = step(-0.022, 0.022, z + 0.35 * np.minimum(y + 0.07, 0.0))
     neck = step(-0.158, -0.112, y)
     far = cheek * back * neck
     lips = _lip_jaw(side) * step(-0.044, -0.056, y - 0.25 * np.maximum(np.abs(x) - 0.02, 0.0))
-    mixed = step(1.1, 2.6, away) * step(0.0, 1.0, np.abs(away))
+    mixed = step(1.1, 2.6, away)
     return lips * (1.0 - mixed) + far * mixed
 
 
 def of_skin(skin: Skin) -> Anatomy:
     """Return the fields of the skin, which also knows its loops around mouth and eyes."""
     face = on_face(skin.points)
-    loops, count = skin.mouth.shape
-    turn = half_turns(count // 2 + 1)
+    loops = skin.mouth
+    turn = half_turns(loops.shape[1] // 2 + 1)
     around = np.cos(np.pi * np.concatenate([turn, turn[-2:0:-1]]))
     side, near, wide, jaw = (field.copy() for field in (face.side, face.near, face.wide, face.jaw))
-    red, flap = np.zeros(len(side)), np.zeros(len(side))
-    reds = np.concatenate(
-        [np.zeros(RED + 2), np.linspace(0, 1, CONTACT - RED + 1)[1:], np.ones(len(_FOLLOW))]
-    )
-    for number in range(loops):
-        ids = skin.mouth[number]
-        side[ids] = face.side[ids] * (1 - _ALONG[number]) + around * _ALONG[number]
-        jaw[ids] = face.jaw[ids] * (1 - _ALONG[number]) + _lip_jaw(around) * _ALONG[number]
-        if number > RED:
-            near[ids] = wide[ids] = 1.0
-            # At a corner all loops meet in a point and go one way.
-            lip = np.clip(np.abs(around) * 3.0, 0.0, 1.0)
-            red[ids] = 0.5 + (reds[number] - 0.5) * lip
-    for behind, follow in enumerate(_FOLLOW):
-        ids = skin.mouth[CONTACT + 2 + behind]
-        near[ids] = wide[ids] = follow
-        deep = step(1.0, 4.0, np.full(count, float(behind)))
-        jaw[ids] = _lip_jaw(around) * (1 - deep) + (0.5 - 0.5 * around) * deep
-    flap[skin.mouth[CONTACT + 3]] = np.clip(-around, 0.0, 1.0) ** 0.5
-    face.skin[skin.mouth[CONTACT + 2 :].ravel()] = 0.0
-    last = np.argmin(np.abs(skin.points - (0.0, -0.074, 0.017)).sum(axis=1))
-    near[last] = wide[last] = 0.0
-    jaw[last] = 0.5
-    return replace(
-        face, jaw=jaw, near=near, wide=wide, side=side, red=red, flap=flap, lid=_lids(skin)
-    )
+    red, flap, outside = np.zeros(len(side)), np.zeros(len(side)), face.skin.copy()
+    side[loops] = side[loops] * (1 - _ALONG) + around * _ALONG
+    jaw[loops] = jaw[loops] * (1 - _ALONG) + _lip_jaw(around) * _ALONG
+    # At a corner all loops meet in a point and go one way.
+    lip = np.clip(np.abs(around) * 3.0, 0.0, 1.0)
+    lips, inner = slice(RED + 1, None), slice(CONTACT + 2, None)
+    red[loops[lips]] = 0.5 + (_REDNESS[lips] - 0.5) * lip
+    near[loops[lips]] = wide[loops[lips]] = 1.0
+    near[loops[inner]] = wide[loops[inner]] = _FOLLOW
+    deep = step(1.0, 4.0, np.arange(len(_FOLLOW), dtype=np.float64))[:, None]
+    jaw[loops[inner]] = _lip_jaw(around) * (1 - deep) + (0.5 - 0.5 * around) * deep
+    flap[loops[CONTACT + 3]] = np.clip(-around, 0.0, 1.0) ** 0.5
+    outside[loops[inner]] = 0.0
+    near[skin.back] = wide[skin.back] = outside[skin.back] = 0.0
+    jaw[skin.back] = 0.5
+    changed = {"jaw": jaw, "near": near, "wide": wide, "side": side, "red": red, "flap": flap}
+    return replace(face, **changed, skin=outside, lid=_lids(skin))
 
 
 def _lids(skin: Skin) -> Floats:
@@ -174,5 +167,5 @@ def _lids(skin: Skin) -> Floats:
         other = pitch[(count - 2 * FIRST_TURN - np.arange(count)) % count]
         upper = rim_turn(count) < 0.5
         meeting = np.where(upper, 0.85 * other + 0.15 * pitch, 0.85 * pitch + 0.15 * other)
-        turns[eye][loops] = _LID_SHARES[:, None] * (pitch - meeting)
+        turns[eye][loops] = _CLOSING * (pitch - meeting)
     return turns

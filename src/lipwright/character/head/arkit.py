@@ -20,7 +20,6 @@ from lipwright.character.head.moves import (
     jaw,
     lower,
     shift,
-    spread,
     turn,
     upper,
 )

@@ -1,12 +1,11 @@
-"""Eyebrows and upper lashes: strips that lie on the skin and move with it."""
+"""Eyebrows: strips that lie on the skin and move with it."""
 
 from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
 
-from lipwright.character.head.relief import relief
-from lipwright.character.head.surface import front
+from lipwright.character.head.relief import face_at
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
@@ -35,8 +34,8 @@ def brows() -> tuple[Floats, Indices]:
     x, low, breadth, thick = (np.interp(fine, np.arange(len(_BROW)), c) for c in _BROW.T)
     share, out = _ACROSS[:, :1], _ACROSS[:, 1:]
     y = low + breadth * share
-    x = x - 0.10 * (y - low) + 0.0 * y
-    points = _on_skin(np.stack([x, y], axis=-1).reshape(-1, 2) * 1e-3)
+    x = x - 0.10 * (y - low)  # leaning outward
+    points = face_at(np.stack([x, y], axis=-1).reshape(-1, 2) * 1e-3)
     points[:, 2] += (np.maximum(out, -0.6) * thick).ravel() * 1e-3
     grid = np.arange(x.size).reshape(x.shape)
     a, b, c, d = grid[:-1, :-1], grid[:-1, 1:], grid[1:, 1:], grid[1:, :-1]
@@ -45,8 +44,3 @@ def brows() -> tuple[Floats, Indices]:
         np.concatenate([points, points * (-1.0, 1.0, 1.0)]),
         np.concatenate([left, left[:, ::-1] + len(points)]),
     )
-
-
-def _on_skin(xy: Floats) -> Floats:
-    points = front(xy[:, 0], xy[:, 1])
-    return points + relief(points)

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
 from lipwright.character.face_model import displacement
-from lipwright.character.head import arkit
 from lipwright.character.head.anatomy import Anatomy, of_skin, on_face, rigid
+from lipwright.character.head.arkit import SHAPES
 from lipwright.character.head.brows import brows
 from lipwright.character.head.ears import ears
 from lipwright.character.head.eyes import eyeball
@@ -15,9 +17,9 @@ from lipwright.character.head.hair import hair
 from lipwright.character.head.lips import CONTACT, RED
 from lipwright.character.head.measure import Landmarks
 from lipwright.character.head.paint import paint_skin, shade
-from lipwright.character.head.poses import POSES
+from lipwright.character.head.poses import POSES, Pose
 from lipwright.character.head.shirt import shirt
-from lipwright.character.head.skin import Skin, build_skin
+from lipwright.character.head.skin import build_skin
 from lipwright.character.head.teeth import LOWER, UPPER, gums, teeth
 from lipwright.character.head.tongue import tongue
 from lipwright.character.mesh import Material, Part
@@ -33,80 +35,95 @@ HAIR = Material("hair", (0.13, 0.070, 0.038, 1.0), 0.6)
 CLOTH = Material("cloth", (0.06, 0.11, 0.16, 1.0), 0.85, double_sided=True)
 EYE = Material("eyes", (1.0, 1.0, 1.0, 1.0), 0.12)
 
+TARGETS: dict[str, Pose] = {**POSES, **SHAPES}
+"""Every morph target: the nine poses, then ARKit's shapes."""
+_STILL = 1e-7  # metres
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Surface:
+    """A part before its targets are made; without an anatomy it never moves."""
+
+    name: str
+    points: Floats
+    triangles: Indices
+    material: Material
+    anatomy: Anatomy | None = None
+    colors: Floats | None = None
+
+    def part(self) -> Part:
+        """Return the part with every target that moves it."""
+        colors = None if self.colors is None else self.colors.astype(np.float32)
+        points, triangles = self.points.astype(np.float32), self.triangles.astype(np.uint32)
+        return Part(self.name, points, triangles, self.material, self._morphs(), colors)
+
+    def _morphs(self) -> dict[str, NDArray[np.float32]]:
+        if self.anatomy is None:
+            return {}
+        moves = {
+            name: displacement(self.points, pose(self.anatomy)).astype(np.float32)
+            for name, pose in TARGETS.items()
+        }
+        return {name: moved for name, moved in moves.items() if np.abs(moved).max() > _STILL}
+
 
 def build_head() -> tuple[Part, ...]:
-    """Build the head.
+    """Build the head, the same to the bit every time.
 
     Returns
     -------
     tuple of Part
+        ``skin`` (which goes on inside the mouth as a closed bag), ``brows``, ``ears``,
+        ``hair``, ``shirt``, ``teeth_upper``, ``gums_upper``, ``teeth_lower``, ``gums_lower``,
+        ``tongue``, ``eye_left``, ``eye_right``. The origin lies between the eyes; chin to
+        crown is 0.225 m. Each part has the targets of :data:`TARGETS` that move it.
     """
+    return tuple(surface.part() for surface in (*_outside(), *_inside()))
+
+
+def _outside() -> list[_Surface]:
     skin = build_skin()
-    parts = [_part("skin", skin.points, skin.triangles, SKIN, of_skin(skin), paint_skin(skin))]
-    points, triangles = brows()
-    parts.append(_part("brows", points, triangles, HAIR, on_face(points), None))
-    points, triangles = ears()
-    parts.append(_part("ears", points, triangles, SKIN, rigid(points), None))
-    points, triangles, colors = hair()
-    parts.append(_part("hair", points, triangles, HAIR, rigid(points), colors))
-    points, triangles = shirt()
-    parts.append(_part("shirt", points, triangles, CLOTH, rigid(points), None))
-    for name, row, goes in (("upper", UPPER, 0.0), ("lower", LOWER, 1.0)):
-        for kind, make, material in (("teeth", teeth, TOOTH), ("gums", gums, GUM)):
-            points, triangles = make(row)
-            parts.append(
-                _part(f"{kind}_{name}", points, triangles, material, rigid(points, goes), None)
-            )
-    points, triangles, share = tongue()
-    parts.append(
-        _part(
-            "tongue",
-            points,
-            triangles,
-            TONGUE,
-            rigid(points, 0.92, tongue=share),
-            shade(points, 0.040, 0.078),
-        )
-    )
+    brow_points, brow_triangles = brows()
+    hair_points, hair_triangles, hair_colors = hair()
+    surfaces = [
+        _Surface("skin", skin.points, skin.triangles, SKIN, of_skin(skin), paint_skin(skin)),
+        _Surface("brows", brow_points, brow_triangles, HAIR, on_face(brow_points)),
+        _Surface("ears", *ears(), SKIN),
+        _Surface("hair", hair_points, hair_triangles, HAIR, colors=hair_colors),
+        _Surface("shirt", *shirt(), CLOTH),
+    ]
     for name, side in (("left", 1.0), ("right", -1.0)):
         points, triangles, colors = eyeball(side)
-        parts.append(_part(f"eye_{name}", points, triangles, EYE, rigid(points, ball=side), colors))
-    return tuple(parts)
+        surfaces.append(
+            _Surface(f"eye_{name}", points, triangles, EYE, rigid(points, ball=side), colors)
+        )
+    return surfaces
 
 
-def _part(
-    name: str,
-    points: Floats,
-    triangles: Indices,
-    material: Material,
-    anatomy: Anatomy,
-    colors: Floats | None,
-) -> Part:
-    morphs = {}
-    for target, pose in {**POSES, **arkit.SHAPES}.items():
-        moved = displacement(points, pose(anatomy))
-        if np.abs(moved).max() > 1e-7:
-            morphs[target] = moved.astype(np.float32)
-    return Part(
-        name,
-        points.astype(np.float32),
-        triangles.astype(np.uint32),
-        material,
-        morphs,
-        None if colors is None else colors.astype(np.float32),
-    )
+def _inside() -> list[_Surface]:
+    surfaces = []
+    for name, row, goes in (("upper", UPPER, None), ("lower", LOWER, 1.0)):
+        for kind, make, material in (("teeth", teeth, TOOTH), ("gums", gums, GUM)):
+            points, triangles = make(row)
+            anatomy = None if goes is None else rigid(points, goes)
+            colors = shade(points, 0.045, 0.085)
+            surfaces.append(
+                _Surface(f"{kind}_{name}", points, triangles, material, anatomy, colors)
+            )
+    points, triangles, share = tongue()
+    anatomy = rigid(points, 0.92, tongue=share)
+    colors = shade(points, 0.040, 0.078)
+    surfaces.append(_Surface("tongue", points, triangles, TONGUE, anatomy, colors))
+    return surfaces
 
 
 def landmarks() -> Landmarks:
     """Return the vertices of the part ``skin`` that mark the mouth; the same for every build."""
-    return _landmarks(build_skin())
-
-
-def _landmarks(skin: Skin) -> Landmarks:
+    skin = build_skin()
     meet = skin.mouth[CONTACT + 1]
     count = len(meet)
     quarter = count // 4
-    border, inner = RED + 1, CONTACT + 5
+    border, inner = RED + 1, CONTACT + 4  # down to the lips' inner side
     right_to_left = [*range(3 * quarter, count), *range(quarter + 1)]
     below = [(count // 2 - number) % count for number in right_to_left]
     return Landmarks(

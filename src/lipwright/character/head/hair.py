@@ -73,7 +73,8 @@ def hair() -> tuple[Floats, Indices, Floats]:
         + _outward(base) * ((thick + 0.9 * strands * np.clip(fullness, 0.0, 1.0)) * 1e-3)[..., None]
     )
     points[..., 0] *= sign
-    crown = loft(0.0, 0.0) + (0.0, 0.0125, 0.0)
+    crown = loft(0.0, 0.0)
+    crown[1] += 0.0125
     grid = np.arange(points[..., 0].size).reshape(points.shape[:2])
     following = np.roll(grid, -1, axis=1)
     a, b, c, d = grid[1:], grid[:-1], following[:-1], following[1:]

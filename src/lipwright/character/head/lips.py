@@ -11,8 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from lipwright.character.head.relief import relief
-from lipwright.character.head.surface import front
+from lipwright.character.head.relief import face_at
 
 Floats = NDArray[np.float64]
 
@@ -30,9 +29,9 @@ _BAG = np.array(
         [28.0, -61.5, -76.5, 88.2, 73.0, 2.8],
         [30.5, -51.5, -85.0, 84.6, 64.0, 4.0],
         [32.0, -50.5, -89.5, 71.0, 57.0, 3.0],
-        [32.0, -51.0, -91.5, 52.0, 47.0, 0.0],
-        [26.0, -55.0, -90.0, 33.0, 32.0, 0.0],
-        [13.0, -63.0, -84.0, 21.0, 21.0, 0.0],
+        [30.4, -52.8, -87.6, 52.0, 47.0, 0.0],
+        [24.0, -56.5, -85.5, 33.0, 32.0, 0.0],
+        [12.0, -64.0, -81.0, 21.0, 21.0, 0.0],
     ]
 )
 # The loops between: how far above and below the contact, and how far behind it (mm).
@@ -51,7 +50,7 @@ def contact(turn: Floats) -> Floats:
     share = x / CORNER[0]
     # The upper lip's middle hangs a little; the line rises beside it and falls to the corner.
     y = -0.0678 - 0.0007 * np.exp(-((share / 0.22) ** 2)) - 0.0004 * share**4
-    skin = _skin(np.stack([x, y], axis=1))
+    skin = face_at(np.stack([x, y], axis=1))
     skin[:, 2] += 0.0016 - 0.0032 * share**3
     return skin
 
@@ -65,11 +64,6 @@ def red_border(turn: Floats) -> Floats:
     above = -0.0606 - bow - 0.0074 * np.clip((share - 0.2) / 0.8, 0.0, 1.0) ** 1.35
     below = -0.0684 - 0.0103 * np.clip(1.0 - share**2.3, 0.0, 1.0) ** 0.85
     return np.stack([x, np.where(upper, above, below)], axis=1)
-
-
-def _skin(xy: Floats) -> Floats:
-    points = front(xy[:, 0], xy[:, 1])
-    return points + relief(points)
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,29 +86,21 @@ def half_lips(edge: Floats) -> Lips:
     """Lay the loops inside the window whose half edge is `edge`, (n, 3) metres."""
     turn = half_turns(len(edge))
     border, meet = red_border(turn), contact(turn)
-    loops = [_around(edge, border, turn, share) for share in _SKIN_SHARES]
-    outer = _skin(border)
-    outer[:, 2] += _edge_lift(turn)
-    loops.append(outer)
-    loops.extend(_red(outer, meet, turn, share) for share in _RED_SHARES)
-    loops.append(meet)
-    loops.extend(_inner_lip(turn, meet, rise, depth) for rise, depth in _INNER_LIP)
-    loops.extend(_bag(turn, row) for row in _BAG * 1e-3)
-    stacked = np.stack(loops)
-    stacked[:, [0, -1], 0] = 0.0
-    return Lips(stacked, np.array(BACK))
+    share = np.array([*_SKIN_SHARES, 1.0])[:, None]
+    skin = face_at(edge[:, :2] * (1 - share[..., None]) + border * share[..., None])
+    skin[..., 2] += _edge_lift(turn) * share**2.5
+    red = [_red(skin[-1], meet, turn, part) for part in _RED_SHARES]
+    inner = [_inner_lip(turn, meet, rise, depth) for rise, depth in _INNER_LIP]
+    bag = [_bag(turn, row) for row in _BAG * 1e-3]
+    loops = np.stack([*skin, *red, meet, *inner, *bag])
+    loops[:, [0, -1], 0] = 0.0
+    return Lips(loops, np.array(BACK))
 
 
 def _edge_lift(turn: Floats) -> Floats:
     """Return how far the red's border stands out of the skin (metres)."""
     middle = np.abs(np.cos(np.pi * turn))
     return np.where(turn < 0.5, 0.0018, 0.0008) * middle
-
-
-def _around(edge: Floats, border: Floats, turn: Floats, share: float) -> Floats:
-    points = _skin(edge[:, :2] * (1 - share) + border * share)
-    points[:, 2] += _edge_lift(turn) * share**2.5
-    return points
 
 
 def _red(outer: Floats, meet: Floats, turn: Floats, share: float) -> Floats:
@@ -127,6 +113,7 @@ def _red(outer: Floats, meet: Floats, turn: Floats, share: float) -> Floats:
 
 
 def _inner_lip(turn: Floats, meet: Floats, rise: float, depth: float) -> Floats:
+    """Return a loop on the lips' inner side, behind the contact."""
     cosine = np.cos(np.pi * turn)
     middle = np.abs(cosine)
     return np.column_stack(
@@ -139,6 +126,7 @@ def _inner_lip(turn: Floats, meet: Floats, rise: float, depth: float) -> Floats:
 
 
 def _bag(turn: Floats, row: Floats) -> Floats:
+    """Return a loop of the bag around teeth and tongue."""
     breadth, top, bottom, middle_z, side_z, ahead = row
     cosine = np.cos(np.pi * turn)
     x = breadth * np.sin(np.pi * turn) ** 0.9

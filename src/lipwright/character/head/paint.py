@@ -66,8 +66,7 @@ def _paint_lips(skin: Skin, colors: Floats) -> None:
     colors[skin.mouth[CONTACT + 1]] *= 0.88
     for number, lining in enumerate(_LINING):
         colors[skin.mouth[CONTACT + 2 + number]] = lining
-    end = np.argmin(np.abs(skin.points - (0.0, -0.074, 0.017)).sum(axis=1))
-    colors[end] = _LINING[-1]
+    colors[skin.back] = _LINING[-1]
 
 
 def _paint_lids(loops: NDArray[np.intp], colors: Floats) -> None:
@@ -80,5 +79,5 @@ def _paint_lids(loops: NDArray[np.intp], colors: Floats) -> None:
         [[0.96, 0.90, 0.89], [0.88, 0.70, 0.67], [0.80, 0.48, 0.45], [0.70, 0.36, 0.33]]
     )
     for number in range(4):
-        shade = pink[number] + (dark[number] - pink[number]) * lash[:, None]
-        colors[loops[LID_RIM + number]] *= shade
+        rim = pink[number] + (dark[number] - pink[number]) * lash[:, None]
+        colors[loops[LID_RIM + number]] *= rim

@@ -76,7 +76,7 @@ def pressed(part: Anatomy) -> list[Move]:
         shift(part.near * red, y=0.2),
         shift(corner(part), z=-0.6),
         spread(part, part.near, 0.8),
-        shift(part.flap, y=5.0, z=1.8),
+        shift(part.flap, y=5.6, z=2.6),
     ]
 
 
@@ -86,9 +86,9 @@ def tucked(part: Anatomy) -> list[Move]:
     low = lower(part, 0.6)
     return [
         *jaw(part, 1.5),
-        shift(low * red, y=0.6, z=-4.9),
+        shift(low * red, y=1.8, z=-4.7),
         shift(lower(part) * (1 - red), y=2.4, z=-1.8),
-        shift(lower(part) * np.sin(np.pi * red), y=1.6, z=-0.5),
+        shift(lower(part) * np.sin(np.pi * red), y=1.2, z=-0.4),
         shift(part.flap, y=-2.0),
         shift(upper(part, 0.9), y=1.6),
         shift(upper(part, 0.9) * red, y=1.2, z=0.6),

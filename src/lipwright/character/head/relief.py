@@ -11,6 +11,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from lipwright.character.head.surface import front
+
 Floats = NDArray[np.float64]
 
 
@@ -95,28 +97,45 @@ def _drawn(y: Floats, column: int) -> Floats:
     )
 
 
+def face_at(xy: Floats) -> Floats:
+    """Return the points of the face, relief and all, in front of (x, y).
+
+    Parameters
+    ----------
+    xy : (..., 2) float64, metres
+
+    Returns
+    -------
+    (..., 3) float64, metres
+    """
+    points = front(xy[..., 0], xy[..., 1])
+    return points + relief(points)
+
+
 def relief(points: Floats) -> Floats:
     """Return the displacement of points of the loft's front.
 
     Parameters
     ----------
-    points : (V, 3) float64, metres
+    points : (..., 3) float64, metres
 
     Returns
     -------
-    (V, 3) float64, metres
+    (..., 3) float64, metres
     """
-    x, y = points[:, 0] * 1e3, points[:, 1] * 1e3
+    x, y = points[..., 0] * 1e3, points[..., 1] * 1e3
     # Of the front alone: fades towards the ears.
-    shown = np.clip(points[:, 2] / 0.02, 0.0, 1.0)
+    shown = np.clip(points[..., 2] / 0.02, 0.0, 1.0)
     total = np.zeros_like(points)
     for bump in _BUMPS.values():
         hill = _hill(x, y, bump) * shown
-        total[:, 2] += bump.height * hill
-        total[:, 0] += bump.sideways * hill * np.sign(x)
-        total[:, 1] += bump.upward * hill
+        total[..., 2] += bump.height * hill
+        if bump.sideways:
+            total[..., 0] += bump.sideways * hill * np.sign(x)
+        if bump.upward:
+            total[..., 1] += bump.upward * hill
     # The tip's underside rises to both sides of the columella.
     under = np.where(y < -36.0, y - 1.6 * np.minimum(np.abs(x) / 7.0, 1.6) ** 2, y)
     ridge = np.exp(-0.69 * np.abs(x / _drawn(y, 2)) ** 2.3)
-    total[:, 2] += _drawn(under, 1) * ridge * shown
+    total[..., 2] += _drawn(under, 1) * ridge * shown
     return total * 1e-3

@@ -30,6 +30,8 @@ class Skin:
     mouth : (L, n) intp
         Loops around the mouth, from the window's edge inward; each starts above the middle
         and runs over the left corner, below the middle and the right corner.
+    back : int
+        The vertex at the end of the mouth's bag.
     eyes : (2, M, m) intp
         Loops around the left and the right eye, from the window's edge inward.
     """
@@ -37,6 +39,7 @@ class Skin:
     points: Floats
     triangles: Indices
     mouth: Indices
+    back: int
     eyes: Indices
 
 
@@ -61,7 +64,7 @@ def build_skin() -> Skin:
     used = np.unique(half)
     place = np.zeros(len(points), dtype=np.intp)
     place[used] = np.arange(len(used))
-    return _mirrored(points[used], place[half], place[mouth], place[eye])
+    return _mirrored(points[used], place[half], place[mouth], int(place[back]), place[eye])
 
 
 def _between(loops: Indices) -> Indices:
@@ -89,7 +92,7 @@ def _has_area(points: Floats, triangles: Indices) -> NDArray[np.bool_]:
     return np.asarray(np.linalg.norm(np.cross(b - a, c - a), axis=1) > 1e-12)
 
 
-def _mirrored(points: Floats, triangles: Indices, mouth: Indices, eye: Indices) -> Skin:
+def _mirrored(points: Floats, triangles: Indices, mouth: Indices, back: int, eye: Indices) -> Skin:
     """Add the other side; vertices with x = 0 are shared."""
     count = len(points)
     own = points[:, 0] > 0.0
@@ -100,5 +103,6 @@ def _mirrored(points: Floats, triangles: Indices, mouth: Indices, eye: Indices) 
         np.concatenate([points, flipped]),
         np.concatenate([triangles, other[triangles][:, ::-1]]),
         np.concatenate([mouth, other[mouth][:, -2:0:-1]], axis=1),
+        back,
         np.stack([eye, other[eye]]),
     )

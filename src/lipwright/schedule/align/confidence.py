@@ -23,6 +23,8 @@ _PHONE = (-3.0, 0.8)
 _WORD = (-2.7, 1.2)
 _LINE = (-2.4, 2.5)
 DOUBTFUL = 0.5
+# A pause as long, and as unlike silence, is sound that the words do not account for.
+_UNACCOUNTED = (0.3, -5.0)
 
 
 def margins(
@@ -68,10 +70,19 @@ def line_confidence(phones: Iterable[Heard]) -> float:
 
 
 def mean_margin(phones: Iterable[Heard]) -> float:
-    """Return the margin over all frames of speech; minus infinity if there are none."""
-    speech = [(p.margin, p.end - p.start) for p in phones if not p.is_pause]
+    """Return the margin over all frames of speech; minus infinity if there are none.
+
+    Sound that the words do not account for belongs to it.
+    """
+    speech = [(p.margin, p.end - p.start) for p in phones if not p.is_pause or is_unaccounted(p)]
     total = sum(weight for _, weight in speech)
     return sum(m * weight for m, weight in speech) / total if total else -math.inf
+
+
+def is_unaccounted(phone: Heard) -> bool:
+    """Whether a pause is rather sound that the words do not account for."""
+    seconds, margin = _UNACCOUNTED
+    return phone.is_pause and phone.end - phone.start > seconds and phone.margin < margin
 
 
 def _logistic(margin: float, constants: tuple[float, float]) -> float:

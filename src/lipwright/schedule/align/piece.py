@@ -82,7 +82,13 @@ def _merged(phones: Sequence[Heard]) -> tuple[Heard, ...]:
     result: list[Heard] = []
     for phone in phones:
         if result and phone.is_pause and result[-1].is_pause:
-            result[-1] = replace(result[-1], end=phone.end)
+            result[-1] = _joined(result[-1], phone)
         else:
             result.append(phone)
     return tuple(result)
+
+
+def _joined(pause: Heard, following: Heard) -> Heard:
+    first, second = pause.end - pause.start, following.end - following.start
+    margin = (first * pause.margin + second * following.margin) / (first + second)
+    return replace(pause, end=following.end, margin=margin)

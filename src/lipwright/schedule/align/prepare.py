@@ -1,4 +1,4 @@
-"""A sound made ready for the acoustic model: 16 kHz, audible, checked."""
+"""A sound made ready for the acoustic model: 16 kHz, audible, checked, cut in pieces."""
 
 from __future__ import annotations
 
@@ -9,6 +9,8 @@ from lipwright.errors import SoundError
 from lipwright.schedule.align.features import RATE
 from lipwright.sound import Sound
 
+LONGEST = 45.0  # s that are taken at once; the decoder's memory grows with it
+_CUT = (20.0, 32.0)  # s after which a longer sound is cut
 _CHUNK = 1 << 20
 _INAUDIBLE = 1e-4  # -80 dB of full scale
 _QUIET = 0.1
@@ -33,6 +35,29 @@ def prepared(sound: Sound) -> NDArray[np.float32]:
         raise SoundError("no speech in it: the sound is silent", expected="speech")
     samples = _resampled(sound)
     return samples * np.float32(_QUIET / loudest) if loudest < _QUIET else samples
+
+
+def cut(samples: NDArray[np.float32], at: int) -> int:
+    """Return where to cut a sound that goes on from ``at``.
+
+    Parameters
+    ----------
+    samples : (N,) float32
+        At 16 kHz; more than ``LONGEST`` seconds from ``at`` on.
+    at : int
+        A sample.
+
+    Returns
+    -------
+    int
+        The middle of the quietest 200 ms between 20 and 32 s later.
+    """
+    first, last = (at + int(seconds * RATE) for seconds in _CUT)
+    step = RATE // 100
+    power = np.square(samples[first:last].astype(np.float64))
+    sums = power[: len(power) // step * step].reshape(-1, step).sum(axis=1)
+    quietest = int(np.convolve(sums, np.ones(20), "valid").argmin())
+    return first + (quietest + 10) * step
 
 
 def _parts(samples: NDArray[np.float32]) -> list[NDArray[np.float32]]:

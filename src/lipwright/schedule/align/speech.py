@@ -8,6 +8,7 @@ from itertools import groupby
 from lipwright.phones import SILENCE, PhoneTrack
 from lipwright.schedule.align.confidence import (
     DOUBTFUL,
+    is_unaccounted,
     line_confidence,
     phone_confidence,
     word_confidence,
@@ -88,6 +89,9 @@ def _warnings(heard: Sequence[Heard], labels: Sequence[str]) -> list[str]:
     sure = line_confidence(heard)
     if sure < DOUBTFUL:
         notes.append(f"confidence {sure:.2f}: the words may not be what is spoken")
+    if lost := [phone for phone in heard if is_unaccounted(phone)]:
+        seconds = sum(phone.end - phone.start for phone in lost)
+        notes.append(f"{seconds:.1f} s of sound without words, the first at {lost[0].start:.1f} s")
     placed = {phone.token for phone in heard}
     unheard = [label for index, label in enumerate(labels) if index not in placed]
     if unheard:

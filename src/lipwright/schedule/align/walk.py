@@ -23,16 +23,16 @@ from lipwright.schedule.align.lexicon import Spoken
 from lipwright.schedule.align.model import AcousticModel
 from lipwright.schedule.align.network import shortest
 from lipwright.schedule.align.piece import align_piece
+from lipwright.schedule.align.prepare import LONGEST, cut
 from lipwright.schedule.align.refine import refine
 
 Progress = Callable[[float], None]
 
-_LONGEST = 45.0  # s that are aligned at once
-_CUT = (20.0, 32.0)  # s after which a longer sound is cut, at its longest pause
 _FASTEST = 20.0  # phones a second that nobody exceeds for long
 _PAUSE = 0.15  # s of a pause that a piece may be resumed in
 _GAIN = 1.0  # nats per frame by which leaving words out must fit better
 _HOPELESS = 0.03  # a piece surer than this has words of the text in it
+_WORDLESS = -10.0  # the margin of a piece that no words fit
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,7 +65,7 @@ def walk(
         Its phones are empty if the sound is too short for the words.
     """
     tell = progress or (lambda _: None)
-    if len(samples) <= _LONGEST * RATE:
+    if len(samples) <= LONGEST * RATE:
         heard = align_piece(model, samples, tokens)
         tell(1.0)
         return Walked(refine(heard, samples) if heard else ())
@@ -82,8 +82,8 @@ def _follow(
     result: list[Heard] = []
     at, word = 0, 0
     while at < len(samples):
-        final = len(samples) - at <= _LONGEST * RATE
-        piece = samples[at:] if final else samples[at : _cut(samples, at)]
+        final = len(samples) - at <= LONGEST * RATE
+        piece = samples[at:] if final else samples[at : cut(samples, at)]
         window = _window(tokens, word, len(piece) / RATE)
         heard = _fitting(model, piece, window, final=final and len(window) == len(tokens) - word)
         keep, resume = (heard, len(piece)) if final else _sure(heard, len(piece))
@@ -100,9 +100,8 @@ def _fitting(
     model: AcousticModel, piece: NDArray[np.float32], window: Sequence[Spoken], *, final: bool
 ) -> tuple[Heard, ...]:
     """Align a piece; if it fits badly, try leaving out words at its start, then all."""
-    silent = (Heard(SILENCE, 0.0, len(piece) / RATE, NO_TOKEN, 0.0),)
     if not window:
-        return silent
+        return _wordless(piece)
     heard = align_piece(model, piece, window, whole=final)
     if not heard:
         heard = align_piece(model, piece, window, whole=False)
@@ -111,7 +110,7 @@ def _fitting(
     later = align_piece(model, piece, window, whole=False, entries=len(window))
     if mean_margin(later) > mean_margin(heard) + _GAIN:
         heard = later
-    return heard if final or line_confidence(heard) > _HOPELESS else silent
+    return heard if line_confidence(heard) > _HOPELESS else _wordless(piece)
 
 
 def _window(tokens: Sequence[Spoken], word: int, duration: float) -> Sequence[Spoken]:
@@ -122,16 +121,6 @@ def _window(tokens: Sequence[Spoken], word: int, duration: float) -> Sequence[Sp
         if phones > _FASTEST * duration:
             return tokens[word:index]
     return tokens[word:]
-
-
-def _cut(samples: NDArray[np.float32], at: int) -> int:
-    """Return where to cut: in the middle of the quietest 200 ms of what may be."""
-    first, last = (at + int(seconds * RATE) for seconds in _CUT)
-    step = RATE // 100
-    power = np.square(samples[first:last].astype(np.float64))
-    sums = power[: len(power) // step * step].reshape(-1, step).sum(axis=1)
-    quietest = int(np.convolve(sums, np.ones(20), "valid").argmin())
-    return first + (quietest + 10) * step
 
 
 def _sure(heard: tuple[Heard, ...], samples: int) -> tuple[tuple[Heard, ...], int]:
@@ -162,17 +151,20 @@ def _proportional(
     result: list[Heard] = []
     at, word = 0, 0
     while at < len(samples):
-        final = len(samples) - at <= _LONGEST * RATE
-        stop = len(samples) if final else _cut(samples, at)
+        final = len(samples) - at <= LONGEST * RATE
+        stop = len(samples) if final else cut(samples, at)
         upto = round(len(tokens) * stop / len(samples))
         piece, share = samples[at:stop], tokens[word:upto]
         heard = align_piece(model, piece, share) if share else ()
-        if not heard:
-            heard = (Heard(SILENCE, 0.0, len(piece) / RATE, NO_TOKEN, 0.0),)
+        heard = heard or _wordless(piece)
         result += _moved(refine(heard, piece), at / RATE, word)
         at, word = stop, upto
         tell(at / len(samples))
     return tuple(result)
+
+
+def _wordless(piece: NDArray[np.float32]) -> tuple[Heard, ...]:
+    return (Heard(SILENCE, 0.0, len(piece) / RATE, NO_TOKEN, _WORDLESS),)
 
 
 def _moved(phones: Sequence[Heard], seconds: float, tokens: int) -> list[Heard]:

@@ -1,0 +1,342 @@
+"""Bad input: each row an input, the exit status, and words of the one line that is printed.
+
+Nothing is half-written and nothing is lost: where a command fails, the folder is as it was.
+"""
+
+import json
+import os
+import struct
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import soundfile
+
+from lipwright.animation import Animation
+from lipwright.cli import main
+from lipwright.engines.bigram.set_file import DATA
+from lipwright.speech import Speech
+from tests.conftest import LINE
+
+RATE = 16000
+SECOND = np.zeros(RATE)
+
+
+@pytest.fixture(scope="module")
+def samples(spoken: Speech) -> np.ndarray:
+    """The sentence at 16 kHz."""
+    assert spoken.sound is not None
+    return spoken.sound.resampled(RATE).samples.astype(np.float64)
+
+
+def fails(
+    capsys: pytest.CaptureFixture[str], folder: Path, *arguments: object, status: int = 1
+) -> str:
+    """Run a command that must fail; return its one line. The folder must stay as it was."""
+    before = {path: path.read_bytes() for path in folder.rglob("*") if path.is_file()}
+    assert main([str(argument) for argument in arguments]) == status
+    captured = capsys.readouterr()
+    assert captured.out == ""
+    after = {path: path.read_bytes() for path in folder.rglob("*") if path.is_file()}
+    assert after == before
+    if status == 1:
+        assert captured.err.count("\n") == 1, captured.err
+        assert captured.err.startswith("lipwright: ")
+    return captured.err
+
+
+# ---- sounds that cannot be used -----------------------------------------------------------
+
+
+def write_bytes(data: bytes) -> Callable[[Path], object]:
+    return lambda path: path.write_bytes(data)
+
+
+def write_sound(sound: np.ndarray, rate: int = RATE, **how: Any) -> Callable[[Path], object]:
+    return lambda path: soundfile.write(path, sound, rate, **how)
+
+
+NOISE = np.random.default_rng(1).normal(0, 0.1, RATE // 20)
+BAD_SOUNDS = {
+    "missing": (lambda path: None, "no such file"),
+    "empty": (write_bytes(b""), "empty"),
+    "text": (write_bytes(b"Dear reader, this is no sound.\n" * 9), "sound"),
+    "folder": (lambda path: path.mkdir(), "folder"),
+    "no samples": (write_sound(SECOND[:0]), "0 samples"),
+    "50 ms": (write_sound(NOISE), "line.wav"),
+    "silence": (write_sound(SECOND), "silen"),
+}
+
+
+@pytest.mark.parametrize("name", BAD_SOUNDS)
+@pytest.mark.parametrize("way", [("--text", "she had your dark suit"), ()])
+def test_sounds_that_cannot_be_used(
+    name: str, way: tuple[str, ...], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    make, words = BAD_SOUNDS[name]
+    sound = tmp_path / "line.wav"
+    make(sound)
+    message = fails(capsys, tmp_path, "animate", sound, *way, "-o", tmp_path / "a.json")
+    assert words in message
+    assert "line.wav" in message
+
+
+# ---- sounds that are unusual and must work ------------------------------------------------
+
+
+def header_of_unknown_length(samples: np.ndarray) -> bytes:
+    data = (samples * 32767).astype("<i2").tobytes()
+    head = b"RIFF" + struct.pack("<I", 0xFFFFFFFF) + b"WAVEfmt "
+    head += struct.pack("<IHHIIHH", 16, 1, 1, RATE, 2 * RATE, 2, 16)
+    return head + b"data" + struct.pack("<I", 0xFFFFFFFF) + data
+
+
+def cut_short(path: Path, samples: np.ndarray) -> None:
+    soundfile.write(path, np.concatenate((samples, SECOND, samples)), RATE)
+    data = path.read_bytes()
+    path.write_bytes(data[: 44 + 2 * (len(samples) + RATE // 2)])
+
+
+def resampled(samples: np.ndarray, rate: int) -> np.ndarray:
+    from lipwright.sound import Sound
+
+    sound = Sound(samples.astype(np.float32), RATE).resampled(rate)
+    return sound.samples.astype(np.float64)
+
+
+GOOD_SOUNDS: dict[str, Callable[[Path, np.ndarray], object]] = {
+    "8 kHz": lambda p, s: soundfile.write(p, resampled(s, 8000), 8000),
+    "96 kHz, 24 bit": lambda p, s: soundfile.write(p, resampled(s, 96000), 96000, subtype="PCM_24"),
+    "stereo": lambda p, s: soundfile.write(p, np.stack((s, 0.5 * s), axis=1), RATE),
+    "float": lambda p, s: soundfile.write(p, s, RATE, subtype="FLOAT"),
+    "float, too loud": lambda p, s: soundfile.write(p, 3 * s, RATE, subtype="FLOAT"),
+    "quiet": lambda p, s: soundfile.write(p, 0.01 * s, RATE),
+    "piped": lambda p, s: p.write_bytes(header_of_unknown_length(s)),
+    "cut": cut_short,
+    "mp3 named wav": lambda p, s: soundfile.write(p, s, RATE, format="MP3"),
+    "flac named wav": lambda p, s: soundfile.write(p, s, RATE, format="FLAC"),
+}
+
+
+@pytest.mark.parametrize("name", GOOD_SOUNDS)
+def test_unusual_sounds_work(
+    name: str, samples: np.ndarray, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    sound = tmp_path / "une ligne à moi.wav"
+    GOOD_SOUNDS[name](sound, samples)
+    output = tmp_path / "a.json"
+    assert main(["animate", str(sound), "--text", LINE, "-o", str(output)]) == 0
+    animation = Animation.load(output)
+    assert animation.words.labels[-1] == "year"
+    # Whatever the file, the words are where they were spoken: within 0.08 s.
+    expected = animation_of(samples, tmp_path)
+    for word, same in zip(animation.words, expected.words, strict=True):
+        assert word.start == pytest.approx(same.start, abs=0.08), word.label
+
+
+def animation_of(samples: np.ndarray, folder: Path) -> Animation:
+    plain = folder / "plain.wav"
+    soundfile.write(plain, samples, RATE)
+    assert main(["animate", str(plain), "--text", LINE, "-o", str(folder / "plain.json")]) == 0
+    return Animation.load(folder / "plain.json")
+
+
+def test_sound_comes_through_a_pipe(samples: np.ndarray, tmp_path: Path) -> None:
+    command = [sys.executable, "-m", "lipwright", "animate", "-", "--text", LINE, "-o", "-"]
+    run = subprocess.run(command, input=header_of_unknown_length(samples), capture_output=True)
+    assert run.returncode == 0
+    assert Animation.from_bytes(run.stdout).control("open").max() > 0.2
+
+
+# ---- words ----------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("text", "said", "aligned"),
+    [
+        ("", "nothing to say", "text is empty"),
+        ("   \n", "nothing to say", "text is empty"),
+        ("?! …", "nothing to say", "no words in"),
+        ("你好，世界", "你", "你"),
+        ("Привет, мир", "П", "П"),
+    ],
+)
+def test_texts_that_cannot_be_spoken(
+    text: str,
+    said: str,
+    aligned: str,
+    line_wav: Path,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    output = tmp_path / "a.json"
+    assert said in fails(capsys, tmp_path, "say", text, "-o", output)
+    message = fails(capsys, tmp_path, "animate", line_wav, "--text", text, "-o", output)
+    assert aligned in message
+
+
+def test_control_characters_are_dropped(line_wav: Path, tmp_path: Path) -> None:
+    text = LINE.replace(" dark", "\x07 dark\x00\x1b").replace(" all", "\u200b\n\tall")
+    for command in (["say", text], ["animate", str(line_wav), "--text", text]):
+        assert main([*command, "-o", str(tmp_path / "a.json")]) == 0
+        words = Animation.load(tmp_path / "a.json").words.labels
+        assert [word.strip(".").lower() for word in words] == LINE.lower().strip(".").split()
+
+
+def test_words_that_are_not_spoken_are_told(
+    line_wav: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    wrong = "Seven thousand purple elephants vacuum my cousin's kitchen floor"
+    notes = []
+    for text in (LINE, wrong):
+        assert main(["animate", str(line_wav), "--text", text, "-o", str(tmp_path / "a.json")]) == 0
+        notes.append(capsys.readouterr().err)
+    assert notes[0] == ""
+    assert "words" in notes[1]
+
+
+def test_noise_with_words_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    noise = np.random.default_rng(2).normal(0, 0.1, 3 * RATE)
+    soundfile.write(tmp_path / "noise.wav", noise, RATE)
+    arguments = ["animate", str(tmp_path / "noise.wav"), "--text", LINE, "-o"]
+    status = main([*arguments, str(tmp_path / "a.json")])
+    told = capsys.readouterr().err
+    assert status in (0, 1)
+    assert told.count("\n") == 1
+    assert "noise.wav" in told if status else "words" in told
+
+
+def test_unknown_voice_and_silly_speed(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    output = tmp_path / "a.json"
+    assert "voice" in fails(capsys, tmp_path, "say", "Hi", "--voice", "atlantean", "-o", output)
+    assert "80 to 450" in fails(capsys, tmp_path, "say", "Hi", "--speed", "9000", "-o", output)
+    assert "frames" in fails(capsys, tmp_path, "say", "Hi", "--rate", "0", "-o", output)
+
+
+# ---- outputs ---------------------------------------------------------------------------------
+
+
+def test_outputs_that_cannot_be_written(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def say(*outputs: object) -> str:
+        arguments = [part for output in outputs for part in ("-o", output)]
+        return fails(capsys, tmp_path, "say", "Hi", *arguments)
+
+    assert "nowhere" in say(tmp_path / "nowhere" / "a.json")
+    assert "'.xyz'" in say(tmp_path / "a.xyz")
+    assert ".json" in say(tmp_path / "a")
+    assert "twice" in say(tmp_path / "a.json", tmp_path / "." / "a.json")
+    (tmp_path / "old.json").write_text("precious")
+    (tmp_path / "old.json").chmod(0o444)
+    assert "read-only" in say(tmp_path / "old.json", tmp_path / "new.csv")
+    assert "suffix" in say(tmp_path)
+
+    def full(descriptor: int) -> None:
+        raise OSError(28, os.strerror(28))
+
+    monkeypatch.setattr(os, "fsync", full)
+    assert "disk is full" in say(tmp_path / "a.json")
+
+
+def test_wrong_usage_is_status_2(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    for arguments in (
+        ("say", "Hi"),
+        ("say", "Hi", "-o", tmp_path / "a.json", "--colour", "red"),
+        ("speek", "Hi"),
+        ("animate", "a.wav", "--text", "a", "--labels", "b.lab", "-o", tmp_path / "a.json"),
+        ("say", "Hi", "-o", tmp_path / "a.json", "--engine", "steam"),
+    ):
+        assert "Error" in fails(capsys, tmp_path, *arguments, status=2)
+
+
+# ---- sets and characters ---------------------------------------------------------------------
+
+
+def english() -> dict[str, Any]:
+    content: dict[str, Any] = json.loads((DATA / "english.json").read_bytes())
+    return content
+
+
+def nan_key(content: dict[str, Any]) -> None:
+    content["bigrams"][0]["curves"]["open"][1][1] = float("nan")
+
+
+def twice(content: dict[str, Any]) -> None:
+    content["bigrams"].append(content["bigrams"][7])
+
+
+def unknown_pose(content: dict[str, Any]) -> None:
+    content["bigrams"][0]["curves"]["smirk"] = [[0, 0], [0.5, 1], [1, 0]]
+
+
+def future(content: dict[str, Any]) -> None:
+    content["version"] = 99
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        (nan_key, "NaN"),
+        (twice, "twice"),
+        (unknown_pose, "unknown pose 'smirk'"),
+        (future, "newer Lipwright"),
+    ],
+)
+def test_sets_that_are_broken(
+    change: Callable[[dict[str, Any]], None],
+    words: str,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    content = english()
+    change(content)
+    path = tmp_path / "my set.json"
+    path.write_text(json.dumps(content))
+    message = fails(capsys, tmp_path, "say", "Hi", "--set", path, "-o", tmp_path / "a.json")
+    assert words in message
+    assert "my set.json" in message
+
+
+def glb(content: dict[str, Any]) -> bytes:
+    text = json.dumps(content).encode()
+    text += b" " * (-len(text) % 4)
+    return struct.pack("<4sIIII", b"glTF", 2, 20 + len(text), len(text), 0x4E4F534A) + text
+
+
+PLAIN = {"asset": {"version": "2.0"}, "meshes": [{"primitives": [{"attributes": {}}]}]}
+
+
+@pytest.mark.parametrize(
+    ("data", "words"),
+    [
+        (glb(PLAIN), "morph"),
+        (glb(PLAIN)[:-30], "model.glb"),
+        (b"glTF", "model.glb"),
+        (b"", "empty"),
+        (b"not a model at all", "model.glb"),
+    ],
+)
+def test_models_that_cannot_speak(
+    data: bytes, words: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    model = tmp_path / "model.glb"
+    model.write_bytes(data)
+    output = tmp_path / "a.glb"
+    assert words in fails(capsys, tmp_path, "say", "Hi", "--character", model, "-o", output)
+    assert words in fails(capsys, tmp_path, "character", "inspect", model)
+
+
+def test_animations_that_why_cannot_read(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "line.json"
+    path.write_text('{"format": "lipwright/animation", "version": 7}')
+    assert "newer" in fails(capsys, tmp_path, "set", "why", path, "--time", "0")
+    path.write_text('{"format": "lipwright/animation", "ver')
+    assert "broken JSON" in fails(capsys, tmp_path, "set", "why", path, "--time", "0")
+    assert "'f-zz'" in fails(capsys, tmp_path, "set", "show", "f-zz")
