@@ -35,9 +35,8 @@ function toFloat(view: DataView, from: number, size: number): Float32Array<Array
 }
 
 /** Lowest and highest sample of each block: what a waveform is drawn from. */
-export interface Peaks {
+export interface Peaks extends Sound {
   block: number;
-  rate: number;
   low: Float32Array;
   high: Float32Array;
 }
@@ -51,19 +50,22 @@ export function peaksOf(sound: Sound, block = 64): Peaks {
     if (value < low[at]) low[at] = value;
     if (value > high[at]) high[at] = value;
   });
-  return { block, rate: sound.rate, low, high };
+  return { ...sound, block, low, high };
 }
 
 /** Lowest and highest sample from `start` up to `end`, in seconds. */
 export function extent(peaks: Peaks, start: number, end: number): [number, number] {
-  const scale = peaks.rate / peaks.block;
+  const fine = (end - start) * peaks.rate < peaks.block;
+  const lows = fine ? peaks.samples : peaks.low;
+  const highs = fine ? peaks.samples : peaks.high;
+  const scale = fine ? peaks.rate : peaks.rate / peaks.block;
   const first = Math.max(Math.floor(start * scale), 0);
-  const last = Math.min(Math.max(Math.ceil(end * scale), first + 1), peaks.low.length);
+  const last = Math.min(Math.max(Math.ceil(end * scale), first + 1), lows.length);
   let low = 0;
   let high = 0;
   for (let at = first; at < last; at++) {
-    if (peaks.low[at] < low) low = peaks.low[at];
-    if (peaks.high[at] > high) high = peaks.high[at];
+    if (lows[at] < low) low = lows[at];
+    if (highs[at] > high) high = highs[at];
   }
   return [low, high];
 }

@@ -41,4 +41,6 @@ test("the waveform shows the lowest and the highest sample of a stretch", () => 
   assert.deepEqual(extent(peaks, 0.4, 0.6), [-0.5, 0.75]);
   assert.deepEqual(extent(peaks, 0, 0.4), [0, 0]);
   assert.deepEqual(extent(peaks, 2, 3), [0, 0]);
+  assert.deepEqual(extent(peaks, 0.5, 0.5005), [0, 0.75]);
+  assert.deepEqual(extent(peaks, 0.501, 0.502), [0, 0]);
 });

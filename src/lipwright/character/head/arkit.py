@@ -109,16 +109,17 @@ def _roll(part: Anatomy, above: bool) -> list[Move]:
     ]
 
 
-def _shrug(part: Anatomy, above: bool) -> list[Move]:
-    lips = upper(part, 0.6) + lower(part, 0.6) * part.red
-    if above:
-        return [
-            shift(upper(part, 0.6), y=2.2, z=1.8),
-            shift(lower(part, 0.6) * part.red, y=2.2, z=1.0),
-        ]
+def _shrug_lower(part: Anatomy) -> list[Move]:
+    """Push the lower lip and the chin up; the upper lip goes along, so that nothing crosses."""
     chin = _hill(part, 0, 0.0, -97.0, 20.0, 12.0)
-    whole = np.maximum(lips, lower(part, 0.6))
-    return [shift(whole, y=2.4, z=1.4), shift(chin, y=2.5, z=0.6)]
+    lips = upper(part, 0.6) + lower(part, 0.6)
+    return [shift(lips, y=2.4, z=1.4), shift(chin, y=2.5, z=0.6)]
+
+
+def _shrug_upper(part: Anatomy) -> list[Move]:
+    """Push the upper lip up and out; the lower lip's edge stays with it."""
+    above, below = upper(part, 0.6), lower(part, 0.6) * part.red
+    return [shift(above, y=2.2, z=1.8), shift(below, y=2.2, z=1.8)]
 
 
 def _press(part: Anatomy, side: int) -> list[Move]:
@@ -180,20 +181,26 @@ def _blink(part: Anatomy, side: int) -> list[Move]:
 
 
 def _brow(
-    part: Anatomy, x: float, radius: float, sides: tuple[int, ...], y: float, inward: float = 0.0
+    part: Anatomy, side: int, x: float, radius: float, y: float, inward: float = 0.0
 ) -> list[Move]:
-    moves = []
-    for side in sides:
-        across = (part.points[:, 0] * 1e3 * side - x) / radius
-        height = part.points[:, 1]
-        along = step(0.006, 0.020, height) * step(0.062, 0.028, height)
-        weight = np.exp(-(across**2)) * along * step(0.0, 0.03, part.points[:, 2]) * part.skin
-        moves.append(shift(weight, x=-inward * side, y=y, z=0.15 * y))
-    return moves
+    """Move the brow around `x` mm on one side up by `y` mm and inward."""
+    across = (part.points[:, 0] * 1e3 * side - x) / radius
+    height, depth = part.points[:, 1], part.points[:, 2]
+    along = step(0.006, 0.020, height) * step(0.062, 0.028, height) * step(0.0, 0.03, depth)
+    weight = np.exp(-(across**2)) * along * part.skin
+    return [shift(weight, x=-inward * side, y=y, z=0.15 * y)]
+
+
+def _inner_brows(part: Anatomy) -> list[Move]:
+    return [move for side in (1, -1) for move in _brow(part, side, x=13.0, radius=15.0, y=5.5)]
 
 
 def _both(name: str, shape: Callable[[Anatomy, int], list[Move]]) -> dict[str, Shape]:
-    return {f"{name}Left": partial(shape, side=1), f"{name}Right": partial(shape, side=-1)}
+    """Return a shape of each side under its name with Left and Right."""
+    return {
+        f"{name}Left": lambda part: shape(part, 1),
+        f"{name}Right": lambda part: shape(part, -1),
+    }
 
 
 SHAPES: dict[str, Shape] = {
@@ -211,21 +218,16 @@ SHAPES: dict[str, Shape] = {
     **_both("mouthStretch", partial(_at_corner, x=7.5, y=-3.0, z=-4.5)),
     "mouthRollLower": partial(_roll, above=False),
     "mouthRollUpper": partial(_roll, above=True),
-    "mouthShrugLower": partial(_shrug, above=False),
-    "mouthShrugUpper": partial(_shrug, above=True),
+    "mouthShrugLower": _shrug_lower,
+    "mouthShrugUpper": _shrug_upper,
     **_both("mouthPress", _press),
     **_both("mouthLowerDown", _lower_down),
     **_both("mouthUpperUp", _upper_up),
     "tongueOut": _tongue_out,
     "cheekPuff": _cheek_puff,
     **_both("eyeBlink", _blink),
-    "browInnerUp": partial(_brow, x=13.0, radius=15.0, sides=(1, -1), y=5.5),
-    **{
-        f"browOuterUp{name}": partial(_brow, x=44.0, radius=18.0, sides=(side,), y=5.5)
-        for name, side in (("Left", 1), ("Right", -1))
-    },
-    **{
-        f"browDown{name}": partial(_brow, x=22.0, radius=22.0, sides=(side,), y=-4.5, inward=1.2)
-        for name, side in (("Left", 1), ("Right", -1))
-    },
+    "browInnerUp": _inner_brows,
+    **_both("browOuterUp", partial(_brow, x=44.0, radius=18.0, y=5.5)),
+    **_both("browDown", partial(_brow, x=22.0, radius=22.0, y=-4.5, inward=1.2)),
 }
+"""The shapes by ARKit's names."""

@@ -60,7 +60,8 @@ def left_lids(edge: Floats) -> Floats:
 
 def _away(xy: Floats) -> Floats:
     """Return the distance from the eyeball's middle, in radii."""
-    return np.hypot(xy[..., 0] - EYE_CENTER[0], xy[..., 1] - EYE_CENTER[1]) / EYE_RADIUS
+    away = np.hypot(xy[..., 0] - EYE_CENTER[0], xy[..., 1] - EYE_CENTER[1]) / EYE_RADIUS
+    return np.asarray(away, np.float64)
 
 
 def _behind(rim: Floats, center: Floats) -> Floats:

@@ -2,8 +2,9 @@
 
 Per phone the mean, over its frames, of how much better or worse its own states fit the
 sound than the best of all phones without context (Witt & Young 2000). Right words lie
-near 0, wrong ones below -3. The mapping to 0..1 is a logistic function for phones, words
-and lines each; its constants were set where right and exchanged texts of recordings meet.
+near 0 (-3 for synthetic voices), wrong ones below -4. The mapping to 0..1 is a logistic
+function for phones, words and lines each; its constants were set where right and exchanged
+texts meet.
 """
 
 from __future__ import annotations
@@ -19,9 +20,9 @@ from lipwright.schedule.align.model import STATES
 from lipwright.schedule.align.viterbi import Stretch
 
 # (margin at which right and wrong are as likely, steepness), nats per frame
-_PHONE = (-3.0, 0.8)
-_WORD = (-2.7, 1.2)
-_LINE = (-2.4, 2.5)
+_PHONE = (-3.5, 0.8)
+_WORD = (-3.2, 1.2)
+_LINE = (-3.2, 2.0)
 DOUBTFUL = 0.5
 # A pause as long, and as unlike silence, is sound that the words do not account for.
 _UNACCOUNTED = (0.3, -5.0)

@@ -44,7 +44,8 @@ _SAME = str.maketrans(
     {"’": "'", "‘": "'", "ʼ": "'", "`": "'", "´": "'", "＇": "'", "“": '"', "”": '"',
      "–": "-", "‐": "-", "‑": "-", "−": "-", "—": " ", "―": " ", "…": " ", "\u00ad": None}
 )  # fmt: skip
-_EDGES = re.compile(r"^[^\w'$£€¥#°&+=@%.-]+|[^\w'%°$£€&+=@]+$")
+_EDGES = re.compile(r"^[^\w'’$£€¥#°&+=@%.-]+|[^\w'’%°$£€&+=@]+$")
+_QUOTED = re.compile(r"‘(.+)’|'(..+)'")
 _SPELLED = re.compile(r"(?:[A-Za-z]\.){2,}[A-Za-z]?'?s?")
 _ACRONYM = re.compile(r"[A-Z]{2,5}(?:'?s)?|PhD|[a-z][A-Z]{1,3}|[A-Z][a-z][A-Z]")
 
@@ -86,7 +87,7 @@ def tokens(text: str) -> tuple[Token, ...]:
     (('five', 'dollars'),)
     """
     written = _clean(text).split()
-    shouting = text.upper() == text
+    shouting = text.upper() == text and len(written) > 1
     foreign = [word for word in written if _is_foreign(word)]
     if foreign:
         raise TextError(
@@ -142,6 +143,9 @@ def _keeps_dot(core: str) -> bool:
 
 
 def _label(word: str) -> str:
+    quoted = _QUOTED.fullmatch(_EDGES.sub("", word))
+    if quoted:
+        word = quoted[1] or quoted[2]
     core = _EDGES.sub("", word)
     start = word.find(core)
     dotted = word[start + len(core) : start + len(core) + 1] == "." and _keeps_dot(core)
