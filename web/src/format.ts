@@ -20,8 +20,11 @@ export function rulerTime(seconds: number, step: number): string {
   return `${sign}${minutes}:${rest.padStart(digits ? digits + 3 : 2, "0")}`;
 }
 
-/** The shortest of 1, 2, 5, 10, 20, 50… (times a power of ten) that is at least `least`. */
+const LONG_STEPS = [1, 2, 5, 10, 15, 30, 60, 120, 300, 600, 1200, 1800, 3600];
+
+/** The shortest step that reads well and is at least `least` seconds: 0.1, 0.2, 0.5, 1, 2, 5… */
 export function niceStep(least: number): number {
+  if (least > 1) return LONG_STEPS.find((step) => step >= least) ?? 7200;
   const power = 10 ** Math.floor(Math.log10(least));
   const factor = [1, 2, 5, 10].find((each) => each * power >= least * (1 - 1e-9)) ?? 10;
   return factor * power;

@@ -36,6 +36,9 @@ export interface Scene {
 
 type Context = CanvasRenderingContext2D;
 
+/** Pixels below which a word or phone is not drawn: a grey mass would say nothing. */
+const LEGIBLE = 2;
+
 export const paint = {
   still(context: Context, scene: Scene): void {
     for (const row of scene.rows) PAINTERS[row.name](context, scene, row);
@@ -144,6 +147,7 @@ function tier(context: Context, scene: Scene, row: Row, spans: Span[], colour: s
   rule(context, scale.width, row.top, ink.line);
   for (let index = Math.max(lastStart(spans, scale.start), 0); index < spans.length; index++) {
     if (spans[index].start > scale.end) break;
+    if (scale.x(spans[index].end) - scale.x(spans[index].start) < LEGIBLE) continue;
     cell(context, scene, row, spans[index], "", colour);
   }
   rule(context, scale.width, row.top + row.height, ink.line);
@@ -192,21 +196,26 @@ function curve(context: Context, scene: Scene, row: Row, index: number): void {
   const width = controls.names.length;
   const last = frameCount(controls) - 1;
   const frame = (time: number) => (time - controls.start) * controls.rate;
+  if (last < 0) return;
   const first = Math.min(Math.max(Math.floor(frame(scale.start)), 0), last);
   const end = Math.min(Math.ceil(frame(scale.end)), last);
   const { colour, dash } = stroke(index, ink.dark);
   const highlighted = shown.highlighted === index;
   context.beginPath();
   const raw = (at: number) => controls.values[Math.min(Math.max(at, 0), last) * width + index];
-  for (let at = first; at <= end; at++) {
+  const x = (at: number) => scale.x(controls.start + at / controls.rate);
+  const y = (value: number) => row.top + (1 - Math.min(Math.max(value, 0), 1.05)) * row.height;
+  const stride = Math.floor((end - first) / scale.width);
+  for (let at = first; at <= end && stride > 1; at += stride) {
+    const [low, high] = bounds(raw, at, Math.min(at + stride, last + 1));
+    context.lineTo(x(at), y(high));
+    context.lineTo(x(at), y(low));
+  }
+  for (let at = first; at <= end && stride <= 1; at++) {
     // Where it rests at zero it is left out: the curves there would only hide each other.
     if (raw(at - 1) === 0 && raw(at) === 0 && raw(at + 1) === 0) continue;
-    const value = Math.min(Math.max(raw(at), 0), 1.05);
     const begins = raw(at) === 0 && raw(at - 1) === 0;
-    context[begins ? "moveTo" : "lineTo"](
-      scale.x(controls.start + at / controls.rate),
-      row.top + (1 - value) * row.height,
-    );
+    context[begins ? "moveTo" : "lineTo"](x(at), y(raw(at)));
   }
   context.strokeStyle = colour;
   context.lineJoin = "round";
@@ -216,6 +225,15 @@ function curve(context: Context, scene: Scene, row: Row, index: number): void {
   context.stroke();
   context.setLineDash([]);
   context.globalAlpha = 1;
+}
+
+function bounds(raw: (at: number) => number, from: number, to: number): [number, number] {
+  let [low, high] = [raw(from), raw(from)];
+  for (let at = from; at < to; at++) {
+    low = Math.min(low, raw(at));
+    high = Math.max(high, raw(at));
+  }
+  return [low, high];
 }
 
 function shade(context: Context, { scale, ink, rows }: Scene, range: Range): void {

@@ -21,12 +21,13 @@ test("the ruler writes no more digits than its step needs", () => {
   assert.equal(rulerTime(90.5, 0.5), "1:30.5");
 });
 
-test("steps are 1, 2, 5 times a power of ten", () => {
+test("steps of the ruler are round, in seconds and in minutes", () => {
   assert.equal(niceStep(0.13), 0.2);
   assert.equal(niceStep(0.3), 0.5);
   assert.equal(niceStep(0.7), 1);
   assert.equal(niceStep(1), 1);
-  assert.equal(niceStep(14), 20);
+  assert.equal(niceStep(14), 15);
+  assert.equal(niceStep(170), 300);
 });
 
 test("lengths are whole milliseconds", () => {

@@ -140,10 +140,10 @@ def of_skin(skin: Skin) -> Anatomy:
     red, flap, outside = np.zeros(len(side)), np.zeros(len(side)), face.skin.copy()
     side[loops] = side[loops] * (1 - _ALONG) + around * _ALONG
     jaw[loops] = jaw[loops] * (1 - _ALONG) + _lip_jaw(around) * _ALONG
-    # At a corner all loops meet in a point and go one way.
+    # At a corner all loops meet in a point and go one way, the contact's.
     lip = np.clip(np.abs(around) * 3.0, 0.0, 1.0)
     lips, inner = slice(RED + 1, None), slice(CONTACT + 2, None)
-    red[loops[lips]] = 0.5 + (_REDNESS[lips] - 0.5) * lip
+    red[loops[lips]] = 1.0 + (_REDNESS[lips] - 1.0) * lip
     near[loops[lips]] = wide[loops[lips]] = 1.0
     near[loops[inner]] = wide[loops[inner]] = _FOLLOW
     deep = step(1.0, 4.0, np.arange(len(_FOLLOW), dtype=np.float64))[:, None]

@@ -154,7 +154,7 @@ def _tongue_out(part: Anatomy) -> list[Move]:
 def _cheek_puff(part: Anatomy) -> list[Move]:
     puffed = [_hill(part, side, 43.0, -63.0, 20.0, 19.0) * (1 - part.near) for side in (1, -1)]
     return [
-        *(shift(hill, x=6.5 * side, z=5.0) for hill, side in zip(puffed, (1, -1), strict=True)),
+        *(shift(hill, x=9.0 * side, z=6.5) for hill, side in zip(puffed, (1, -1), strict=True)),
         shift(part.near, z=1.5),
     ]
 

@@ -29,14 +29,13 @@ _OUTLINE = np.array(
     ]
 )
 _HOLLOW = np.array([9.0, -3.0])  # the middle of the concha
-_AROUND = 26
+_AROUND = 22
 # From behind the ear to the middle of the hollow: share of the outline, height at the
 # rim's back and at its front edge (mm), where the ear runs into the cheek.
 _LOOPS = np.array(
     [
         [0.60, -14.0, -12.0],
         [0.88, -4.0, -8.0],
-        [0.99, -0.6, -4.0],
         [1.00, 1.2, -2.4],
         [0.93, 2.4, -0.6],
         [0.83, 1.0, 0.6],

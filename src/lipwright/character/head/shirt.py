@@ -22,7 +22,7 @@ _ROWS = np.array(
         [-226.0, 79.0, 148.0, -204.0, -25.0, -214.0, -105.0],
     ]
 )
-_AROUND = 36
+_AROUND = 30
 
 
 def shirt() -> tuple[Floats, Indices]:

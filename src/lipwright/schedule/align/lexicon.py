@@ -26,7 +26,7 @@ from lipwright.schedule.align.text import Token
 
 Pronunciation = tuple[str, ...]
 Ways = tuple[Pronunciation, ...]
-LexiconLike = Path | Mapping[str, str | Sequence[str]] | None
+LexiconLike = Path | str | Mapping[str, str | Sequence[str]] | None
 
 _VOICELESS = {"p", "t", "k", "f", "th"}
 _HISSING = {"s", "z", "sh", "zh", "ch", "jh"}
@@ -208,7 +208,7 @@ def read_lexicon(lexicon: LexiconLike) -> dict[str, Ways]:
     return result
 
 
-def _lines(path: Path) -> list[str]:
+def _lines(path: Path | str) -> list[str]:
     try:
         return read_bytes(path).decode("utf-8-sig").splitlines()
     except UnicodeDecodeError:
