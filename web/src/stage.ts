@@ -180,8 +180,8 @@ export class Stage {
     lamp.castShadow = true;
     lamp.shadow.mapSize.set(size, size);
     lamp.shadow.radius = 4;
-    lamp.shadow.normalBias = reach * 0.008;
-    lamp.shadow.bias = -0.0006;
+    lamp.shadow.normalBias = reach * 0.014;
+    lamp.shadow.bias = -0.001;
   }
 
   #lamp(colour: number, strength: number, from: [number, number, number]): DirectionalLight {

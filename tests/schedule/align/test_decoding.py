@@ -81,7 +81,8 @@ def test_the_path_takes_the_pronunciations_and_pauses_that_fit(
 
 
 def test_of_several_forms_the_one_that_fits_is_taken(model: AcousticModel) -> None:
-    forms = ((((("t", "uw"),),) * 2), (((("t", "uw"),),) + (((CAT,)),)))
+    two, cat = (("t", "uw"),), (CAT,)
+    forms = ((two, two), (two, cat))
     assert path_labels(model, [Spoken("2", forms)], ["t", "uw", *CAT]) == ["t", "uw", *CAT]
     assert path_labels(model, [Spoken("2", forms)], ["t", "uw"] * 2) == ["t", "uw"] * 2
 

@@ -97,7 +97,7 @@ def _forward(
     arcs: _Arcs,
     scores: NDArray[np.float32],
     columns: NDArray[np.int64],
-) -> tuple[NDArray[np.float32], NDArray[np.bool_], NDArray[np.uint8]]:
+) -> tuple[NDArray[np.float32], NDArray[np.bool_], NDArray[np.uint16]]:
     states = len(arcs.stay)
     entry = np.arange(0, states, STATES)
     rows = np.arange(len(entry))
@@ -106,7 +106,7 @@ def _forward(
         value[STATES * node] = weight
     value += scores[0][columns]
     moved = np.zeros((len(scores), states), np.bool_)
-    entered = np.zeros((len(scores), len(entry)), np.uint8)
+    entered = np.zeros((len(scores), len(entry)), np.uint16)
     came = np.empty(states, np.float32)
     for t in range(1, len(scores)):
         came[1:] = value[:-1]
@@ -124,7 +124,7 @@ def _forward(
 
 
 def _trace(
-    arcs: _Arcs, moved: NDArray[np.bool_], entered: NDArray[np.uint8], end: int
+    arcs: _Arcs, moved: NDArray[np.bool_], entered: NDArray[np.uint16], end: int
 ) -> tuple[Stretch, ...]:
     stretches: list[Stretch] = []
     state, stop = end, len(moved)
