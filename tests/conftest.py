@@ -5,9 +5,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 import soundfile
+from hypothesis import settings
 
 from lipwright.schedule.say import say
 from lipwright.speech import Speech
+
+# A busy machine must not fail a test; what failed is printed so that it can be run again.
+settings.register_profile("lipwright", deadline=None, print_blob=True)
+settings.load_profile("lipwright")
 
 LINE = "She had your dark suit in greasy wash water all year."
 

@@ -98,7 +98,7 @@ def tucked(part: Anatomy) -> list[Move]:
 
 
 def spread_wide(part: Anatomy) -> list[Move]:
-    """`wide`: the corners go outward and back, the lips thin."""
+    """`wide`: the corners go outward and back, the lips thin and part over the teeth."""
     red = part.red
     sides = part.wide * (1.0 - 0.5 * np.abs(part.side))
     return [
@@ -107,6 +107,8 @@ def spread_wide(part: Anatomy) -> list[Move]:
         shift((upper(part) + lower(part)), z=-1.2),
         shift(upper(part) * (1 - red), y=-0.6),
         shift(lower(part) * (1 - red), y=0.9),
+        shift(upper(part, 0.6), y=1.0),
+        shift(lower(part, 0.6), y=-1.4),
     ]
 
 
