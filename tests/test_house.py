@@ -48,7 +48,9 @@ def imports() -> list[tuple[str, str, str]]:
                 if node.module == "lipwright":
                     names = [f"lipwright.{alias.name}" for alias in node.names]
             found += [
-                (inside.as_posix(), own, part(name)) for name in names if name.startswith("lipwright.")
+                (inside.as_posix(), own, part(name))
+                for name in names
+                if name.startswith("lipwright.")
             ]
     return found
 
