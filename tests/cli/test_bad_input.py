@@ -61,8 +61,8 @@ def write_sound(sound: np.ndarray, rate: int = RATE, **how: Any) -> Callable[[Pa
 
 
 NOISE = np.random.default_rng(1).normal(0, 0.1, RATE // 20)
-BAD_SOUNDS = {
-    "missing": (lambda path: None, "no such file"),
+BAD_SOUNDS: dict[str, tuple[Callable[[Path], object], str]] = {
+    "missing": (Path.exists, "no such file"),
     "empty": (write_bytes(b""), "empty"),
     "text": (write_bytes(b"Dear reader, this is no sound.\n" * 9), "sound"),
     "folder": (lambda path: path.mkdir(), "folder"),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -42,7 +43,7 @@ def say(
     files = _with_sound(outputs)
     _check(files)
     if text == STANDARD_STREAM:
-        text = click.get_text_stream("stdin").read()
+        text = sys.stdin.read()
     speech = pipeline.say(text, voice=voice, rate=speed, pitch=pitch)
     _animate(speech, files, as_json, how)
 

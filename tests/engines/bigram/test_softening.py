@@ -4,14 +4,14 @@ import numpy as np
 import pytest
 
 from lipwright.engines.bigram.model import Pose
-from lipwright.engines.bigram.polyline import Axis, Line
+from lipwright.engines.bigram.polyline import Axis, Floats, Line
 from lipwright.engines.bigram.softening import sample
 
 PEAK: Line = (np.array([0, 1.0, 1.2, 1.4, 4]), np.array([0, 0, 1.0, 0, 0]))
 AXIS = Axis(0, 4, 1)
 
 
-def one(line: Line, kind: str, softness: float = 0.1, rate: float = 1000.0) -> np.ndarray:
+def one(line: Line, kind: str, softness: float = 0.1, rate: float = 1000.0) -> Floats:
     return sample(line, AXIS, (Pose("a", 1, softness=softness),), 0, 3900, rate, kind)[0]
 
 

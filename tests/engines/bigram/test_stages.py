@@ -1,5 +1,7 @@
 """Each stage on lines whose result can be worked out by hand."""
 
+from collections.abc import Mapping, Sequence
+
 import numpy as np
 import pytest
 
@@ -19,17 +21,20 @@ from lipwright.phones import PhoneTrack
 from lipwright.timeline import Tier
 
 LINE = PhoneTrack(Tier.of(("aa", 0, 1), ("bmp", 1, 2), ("ih", 2, 3)), "common")
-TENT = [(0, 0), (0.5, 1), (1, 0)]
+TENT: list[tuple[float, float]] = [(0, 0), (0.5, 1), (1, 0)]
+
+
+Drawn = Sequence[tuple[float, float]]
 
 
 def engine(
-    curves: dict[tuple[str, str], dict[str, list[tuple[float, float]]]],
+    curves: Mapping[tuple[str, str], Mapping[str, Drawn]],
     *poses: Pose,
     conflicts: tuple[Conflict, ...] = (),
     settings: Settings | None = None,
 ) -> BigramEngine:
     bigrams = {
-        pair: Bigram(pair, {name: Keys.of(keys) for name, keys in drawn.items()})
+        pair: Bigram(pair, {name: Keys.of(list(keys)) for name, keys in drawn.items()})
         for pair, drawn in curves.items()
     }
     rules = Rules(poses, conflicts, settings or Settings(spline="linear"))
@@ -85,7 +90,7 @@ def test_lifting_keeps_what_is_above_the_chord_and_replacing_does_not() -> None:
 
 
 def test_a_chord_does_not_bridge_a_closure() -> None:
-    curves = {
+    curves: dict[tuple[str, str], dict[str, Drawn]] = {
         ("aa", "bmp"): {"open": TENT, "PBM": [(0.5, 0), (0.75, 1), (1, 0)]},
         ("bmp", "ih"): {"open": TENT, "PBM": [(0, 0), (0.25, 1), (0.5, 0)]},
     }
