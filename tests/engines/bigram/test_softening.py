@@ -12,7 +12,8 @@ AXIS = Axis(0, 4, 1)
 
 
 def one(line: Line, kind: str, softness: float = 0.1, rate: float = 1000.0) -> Floats:
-    return sample(line, AXIS, (Pose("a", 1, softness=softness),), 0, 3900, rate, kind)[0]
+    values: Floats = sample(line, AXIS, (Pose("a", 1, softness=softness),), 0, 3900, rate, kind)[0]
+    return values
 
 
 def random_line(seed: int) -> Line:

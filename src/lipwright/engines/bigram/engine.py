@@ -115,7 +115,7 @@ class BigramEngine:
         values = sample(stages.limited, stages.axis, self.plan.poses, first, count, rate, spline)
         if self.rules.settings.solve == "together":
             keep_closures(values, solved.spans, stages, self._reach, first, rate)
-        return self._kept_apart(values).T[:, self._output]
+        return self._kept_apart(values)[self._output].T
 
     def _kept_apart(self, values: Floats) -> Floats:
         """Apply the bounds once more to what is exported: softening bends them a little."""
@@ -160,7 +160,7 @@ class BigramEngine:
         values = self.sample(solved, first / rate, count, rate)
         return Animation(
             self.rules.names,
-            np.ascontiguousarray(values, dtype=np.float32),
+            values.astype(np.float32, order="C"),
             rate,
             first / rate,
             self.keys(solved),

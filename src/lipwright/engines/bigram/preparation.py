@@ -70,28 +70,15 @@ def prepare(phones: Sequence[Row], padding: float, silence_reach: float) -> Span
         If a phone has no length: it names it.
     """
     if not phones:
-        return _spans(_Line([], [], [], []), np.zeros((0, 2)), silence_reach)
-    line = _Line([], [], [], [])
-    starts = np.array([start for _, start, _ in phones], dtype=np.float64)
-    ends = np.array([end for _, _, end in phones], dtype=np.float64)
-    heard = np.stack((starts, ends), axis=1)
-    gaps = starts[1:] - ends[:-1]
-    close = (gaps != 0) & (gaps < ROUNDING)
-    middles = 0.5 * (starts[1:] + ends[:-1])[close]
-    starts[1:][close] = middles
-    ends[:-1][close] = middles
-    silences = np.append(gaps >= ROUNDING, [False]).tolist()
-    rows = zip(phones, starts.tolist(), ends.tolist(), silences, strict=True)
-    for index, ((label, _, _), start, end, silence) in enumerate(rows):
-        line.add(label, start, end, index)
-        if silence:
-            line.add(SILENCE, end, float(starts[index + 1]), -1)
-    if all(label == SILENCE for label in line.labels):
-        line = _Line([], [], [], [])
-    if line.labels and line.labels[0] != SILENCE:
-        line.insert_before(padding)
-    if line.labels and line.labels[-1] != SILENCE:
-        line.add(SILENCE, line.ends[-1], line.ends[-1] + padding, -1)
+        return _spans(_Line([], np.zeros(0), np.zeros(0), np.zeros(0, int)), np.zeros((0, 2)), 0)
+    labels, starts, ends = (list(column) for column in zip(*phones, strict=True))
+    line = _Line(labels, np.array(starts, float), np.array(ends, float), np.arange(len(labels)))
+    heard = np.stack((line.starts, line.ends), axis=1)
+    line.close_gaps()
+    line.merge_silences()
+    if line.labels == [SILENCE]:
+        return prepare((), padding, silence_reach)
+    line.pad(padding)
     return _spans(line, heard, silence_reach)
 
 
@@ -100,40 +87,60 @@ class _Line:
     """Columns of a line under construction."""
 
     labels: list[str]
-    starts: list[float]
-    ends: list[float]
-    origins: list[int]
+    starts: Floats
+    ends: Floats
+    origins: Ints
 
-    def add(self, label: str, start: float, end: float, origin: int) -> None:
-        if end <= start:
+    def close_gaps(self) -> None:
+        """Fill gaps with silence, the smallest from both sides."""
+        gaps = self.starts[1:] - self.ends[:-1]
+        close = (gaps != 0) & (gaps < ROUNDING)
+        middles = 0.5 * (self.starts[1:] + self.ends[:-1])[close]
+        self.starts[1:][close] = middles
+        self.ends[:-1][close] = middles
+        for index in np.flatnonzero(self.ends <= self.starts)[:1]:
             raise LabelError(
-                f"{label!r} at {start:.6g} s has no length", where=f"phone {origin + 1}"
+                f"{self.labels[index]!r} at {self.starts[index]:.6g} s has no length",
+                where=f"phone {index + 1}",
             )
-        if label == SILENCE and self.labels and self.labels[-1] == SILENCE:
-            self.ends[-1] = end
-            self.origins[-1] = max(self.origins[-1], origin)
-            return
-        self.labels.append(label)
-        self.starts.append(start)
-        self.ends.append(end)
-        self.origins.append(origin)
+        wide = np.flatnonzero(gaps >= ROUNDING) + 1
+        self.insert(wide, self.ends[wide - 1], self.starts[wide])
 
-    def insert_before(self, padding: float) -> None:
-        self.labels.insert(0, SILENCE)
-        self.ends.insert(0, self.starts[0])
-        self.starts.insert(0, self.starts[0] - padding)
-        self.origins.insert(0, -1)
+    def insert(self, before: Ints, starts: Floats, ends: Floats) -> None:
+        """Insert silences before the phones with these numbers."""
+        for index in before[::-1].tolist():
+            self.labels.insert(index, SILENCE)
+        self.starts = np.insert(self.starts, before, starts)
+        self.ends = np.insert(self.ends, before, ends)
+        self.origins = np.insert(self.origins, before, -1)
+
+    def merge_silences(self) -> None:
+        """Make one of silences that follow one another."""
+        silent = np.array([label == SILENCE for label in self.labels])
+        first = np.flatnonzero(~np.append([False], silent[1:] & silent[:-1]))
+        if len(first) == len(silent):
+            return
+        self.ends = self.ends[np.append(first[1:] - 1, len(silent) - 1)]
+        self.starts = self.starts[first]
+        self.origins = np.maximum.reduceat(self.origins, first)
+        self.labels = [self.labels[index] for index in first.tolist()]
+
+    def pad(self, padding: float) -> None:
+        """Put silence at ends that have none."""
+        start, end = self.starts[:1], self.ends[-1:]
+        if self.labels[-1] != SILENCE:
+            self.insert(np.array([len(self.labels)]), end, end + padding)
+        if self.labels[0] != SILENCE:
+            self.insert(np.array([0]), start - padding, start)
 
 
 def _spans(line: _Line, given: Floats, silence_reach: float) -> Spans:
-    starts = np.array(line.starts, dtype=np.float64)
-    ends = np.array(line.ends, dtype=np.float64)
+    starts, ends, origins = line.starts, line.ends, line.origins
     silent = np.array([label == SILENCE for label in line.labels], dtype=bool)
     first, boundary, last = starts[:-1].copy(), starts[1:].copy(), ends[1:].copy()
     before, after = silent[:-1], silent[1:]
     first[before] = np.maximum(first[before], boundary[before] - silence_reach)
     last[after] = np.minimum(last[after], boundary[after] + silence_reach)
-    origins = np.array(line.origins, dtype=np.int64)
     heard = np.stack((starts, ends), axis=1)
     known = origins >= 0
     heard[known] = given[origins[known]]

@@ -54,7 +54,8 @@ def sample(
     values = _linear(line, grid)
     if kind == "soften":
         half = np.array([pose.softness for pose in poses])
-        values = np.clip(values + _bends(line, grid, half), 0.0, 1.0)
+        values += _bends(line, grid, half)
+        np.clip(values, 0.0, 1.0, out=values)
     return values
 
 
@@ -70,16 +71,14 @@ class _Grid:
         blocks = np.arange(self.axis.count) * self.axis.width
         return (blocks[:, None] + own[None, :]).ravel()
 
-    def interval(self, times: Floats) -> Ints:
-        """For each sample the number of the last key at or before it."""
+    def counts(self, times: Floats) -> Ints:
+        """How many samples lie in each interval between neighbouring keys."""
         block = self.axis.block_of(times)
         own = times - block * self.axis.width - self.offset
         index = np.ceil(own * self.rate - 1e-9).clip(0, self.count).astype(np.int64)
         firsts = block * self.count + index
-        total = self.axis.count * self.count
-        passed = np.bincount(firsts, minlength=total + 1)[:total].cumsum() - 1
-        inner: Ints = np.clip(passed, 0, len(times) - 2)
-        return inner
+        firsts[0], firsts[-1] = 0, self.axis.count * self.count
+        return np.diff(firsts)
 
     def shaped(self, values: Floats) -> Floats:
         """Reshape to (P, T)."""
@@ -88,9 +87,13 @@ class _Grid:
 
 def _linear(line: Line, grid: _Grid) -> Floats:
     times, values = line
-    left = grid.interval(times)
+    counts = grid.counts(times)
     slope = np.diff(values) / np.diff(times)
-    return grid.shaped(values[left] + slope[left] * (grid.times() - times[left]))
+    level = values[:-1] - slope * times[:-1]
+    sampled = grid.times()
+    sampled *= np.repeat(slope, counts)
+    sampled += np.repeat(level, counts)
+    return grid.shaped(sampled)
 
 
 def _bends(line: Line, grid: _Grid, half: Floats) -> Floats:
@@ -105,17 +108,22 @@ def _bends(line: Line, grid: _Grid, half: Floats) -> Floats:
     low = np.ceil((own - width) * grid.rate).clip(0, grid.count).astype(np.int64)
     high = (np.floor((own + width) * grid.rate) + 1).clip(0, grid.count).astype(np.int64)
     counts = np.where((width > 0) & (np.abs(bend) > 1e-12), high - low, 0)
-    key = np.repeat(np.arange(len(times)), counts)
-    start = np.cumsum(counts) - counts
-    index = np.arange(len(key)) - start[key] + low[key]
-    distance = np.maximum(width[key] - np.abs(index / grid.rate - own[key]), 0.0)
     scale = np.divide(bend, 6 * width**2, out=np.zeros_like(bend), where=width > 0)
-    added = scale[key] * distance**3
+    # Each key's samples one after the other; in place, since memory is what costs here.
+    shift = low - (np.cumsum(counts) - counts)
+    index = np.arange(counts.sum())
+    depth: Floats = index / grid.rate
+    depth += np.repeat(shift / grid.rate - own, counts)
+    np.abs(depth, out=depth)
+    np.subtract(np.repeat(width, counts), depth, out=depth)
+    np.maximum(depth, 0.0, out=depth)
+    added: Floats = depth * depth
+    added *= depth
+    added *= np.repeat(scale, counts)
+    index += np.repeat(shift + block * grid.count, counts)
     total = grid.axis.count * grid.count
-    summed: Floats = np.bincount(
-        block[key] * grid.count + index, weights=added, minlength=total
-    ).astype(np.float64)
-    return grid.shaped(summed)
+    summed = np.bincount(index, weights=added, minlength=total)
+    return grid.shaped(summed.astype(np.float64, copy=False))
 
 
 def _pchip(line: Line, grid: _Grid) -> Floats:
@@ -132,7 +140,7 @@ def _pchip(line: Line, grid: _Grid) -> Floats:
         out=tangent[1:-1],
         where=product > 0,
     )
-    left = grid.interval(times)
+    left = np.repeat(np.arange(len(step)), grid.counts(times))
     t = grid.times() - times[left]
     square = (3 * slope - 2 * tangent[:-1] - tangent[1:]) / step
     cube = (tangent[:-1] - 2 * slope + tangent[1:]) / step**2

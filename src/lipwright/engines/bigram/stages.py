@@ -20,6 +20,7 @@ from lipwright.engines.bigram.polyline import (
     Ints,
     Line,
     combine,
+    crossings,
     hold,
     insert,
     maxima,
@@ -313,7 +314,8 @@ def _room(higher: Line, threshold: float, kind: str) -> Line:
     """What a pose of higher priority leaves to a lower one, on keys."""
     times, values = higher
     room = 1 - values / threshold if kind == "ramp" else threshold - values
-    return combine((times, room), (times[[0, -1]], np.zeros(2)), "max")
+    line = insert((times, room), crossings(times, room, np.zeros(len(times))))
+    return line[0], np.maximum(line[1], 0.0)
 
 
 def _constrain_in_turn(smoothed: Line, axis: Axis, plan: Plan, rules: Rules) -> list[Line]:
