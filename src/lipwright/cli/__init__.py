@@ -94,4 +94,7 @@ def _interrupted() -> int:
 
 def run() -> None:
     """Entry point of the console script."""
+    # The matrices here are small: threads would only wait for each other, on a busy
+    # machine for longer than the work takes. It must be said before numpy is imported.
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     sys.exit(main())
