@@ -1,6 +1,6 @@
 /** Where to look: the head, and the mouth in it, found from what moves. No picture is made here. */
 
-import { Box3, Vector3, type Mesh, type Object3D } from "three";
+import { Box3, Mesh, Vector3, type Object3D } from "three";
 
 /** What a camera can frame: a centre and the half-size that should fit. */
 export interface Frame {
@@ -17,24 +17,67 @@ export interface Framing {
 /** Morph targets that move the lips and little else. */
 const LIPS = /mouth|lip|pucker|funnel|pbm|fv|wide|shch|viseme|^w$|^[aeiou]{1,2}$/i;
 
+/** Share of the view that a head fills. */
+const FILLED = 0.83;
+/** Share of the greatest squared displacement that the chin surely has, and the neck has not. */
+const MUCH = 0.3;
+
 export function framing(model: Object3D, meshes: Mesh[], used: string[]): Framing {
   model.updateMatrixWorld(true);
   const box = new Box3().setFromObject(model);
   const size = box.getSize(new Vector3());
-  const centre = box.getCenter(new Vector3());
-  // The face is what matters: a little of the shoulders is left out.
-  centre.y += 0.05 * size.y;
-  const whole = { centre, halfWidth: 0.45 * size.x, halfHeight: 0.47 * size.y };
   const lips = used.filter((name) => LIPS.test(name));
   const moved = spread(meshes, lips.length ? lips : used);
-  if (!moved) return { head: whole, mouth: whole };
+  if (!moved) {
+    const whole = frameOf(box);
+    return { head: whole, mouth: whole };
+  }
   const half = Math.max(moved.deviation.x, moved.deviation.y, 0.01 * size.y);
   // The lips are in front of most of what they take along.
   moved.mean.z += moved.deviation.z;
-  const mouth = { centre: moved.mean, halfWidth: 2.6 * half, halfHeight: 1.9 * half };
-  if (size.y < 30 * half) return { head: whole, mouth };
-  const head = moved.mean.clone().add(new Vector3(0, 2 * half, 0));
-  return { head: { centre: head, halfWidth: 6 * half, halfHeight: 8 * half }, mouth };
+  const mouth = { centre: moved.mean, halfWidth: 1.75 * half, halfHeight: 1.75 * half };
+  const head = headOf(model, meshes, used, box);
+  // Of a figure's height the head is a small part; of a face alone the chin may not move.
+  const top = size.y > 30 * half ? moved.mean.y + 9 * half : head.max.y;
+  head.max.y = Math.min(head.max.y, top);
+  return { head: frameOf(head.max.y - head.min.y > 4 * half ? head : box), mouth };
+}
+
+/** What of a model lies above its chin, which is the lowest that moves much with the mouth. */
+function headOf(model: Object3D, meshes: Mesh[], used: string[], box: Box3): Box3 {
+  const moves = meshes.map((mesh) => displacement(mesh, used));
+  const most = moves.reduce((high, weights) => weights.reduce((a, b) => Math.max(a, b), high), 0);
+  const place = new Vector3();
+  let chin = box.max.y;
+  meshes.forEach((mesh, number) => {
+    const rest = mesh.geometry.getAttribute("position");
+    moves[number].forEach((weight, index) => {
+      if (weight < MUCH * most) return;
+      chin = Math.min(chin, place.fromBufferAttribute(rest, index).applyMatrix4(mesh.matrixWorld).y);
+    });
+  });
+  const head = new Box3();
+  model.traverse((object) => {
+    if (!(object instanceof Mesh)) return;
+    const rest = object.geometry.getAttribute("position");
+    for (let index = 0; index < rest.count; index++) {
+      place.fromBufferAttribute(rest, index).applyMatrix4(object.matrixWorld);
+      if (place.y >= chin) head.expandByPoint(place);
+    }
+  });
+  return head;
+}
+
+/** A box with air around it, a little more below. */
+function frameOf(box: Box3): Frame {
+  const size = box.getSize(new Vector3());
+  const centre = box.getCenter(new Vector3());
+  centre.y -= 0.02 * size.y;
+  return {
+    centre,
+    halfWidth: (0.5 * Math.max(size.x, size.z)) / FILLED,
+    halfHeight: (0.5 * size.y) / FILLED,
+  };
 }
 
 /** Mean and deviation of the vertices' places, weighted by the square of how far they move. */

@@ -146,11 +146,10 @@ export class Stage {
       Math.sin(elevation),
       Math.cos(azimuth) * Math.cos(elevation),
     );
-    const depth = view.part === "head" ? 0.6 * frame.halfWidth : 0;
     this.#camera.near = near / 50;
     this.#camera.far = far * 20;
     this.#camera.updateProjectionMatrix();
-    return [direction.multiplyScalar(near + depth).add(frame.centre), frame.centre.clone()];
+    return [direction.multiplyScalar(near).add(frame.centre), frame.centre.clone()];
   }
 
   #look(place: Vector3, target: Vector3): void {

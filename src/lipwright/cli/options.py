@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass, fields
+from functools import wraps
 from pathlib import Path
 from typing import Any
 
@@ -60,7 +62,7 @@ animation = stack(
     ),
 )  # fmt: skip
 
-recording = stack(
+_recording = stack(
     click.argument("sound", metavar="SOUND"),
     click.option("--text", metavar="WORDS", help="What is said in it."),
     click.option(
@@ -79,5 +81,30 @@ recording = stack(
         help="Pronunciations of unusual words: WORD  P R OH N",
     ),
 )  # fmt: skip
+
+
+@dataclass(frozen=True, slots=True)
+class Recording:
+    """A recording as it is named on the command line, with what is known of it."""
+
+    sound: str
+    text: str | None
+    text_file: Path | None
+    labels: Path | None
+    phone_set: str | None
+    lexicon: Path | None
+
+
+def recording(command: Command) -> Command:
+    """SOUND and what goes with it, given to the command as one :class:`Recording`."""
+    names = [field.name for field in fields(Recording)]
+
+    @wraps(command)
+    def bundled(**given: Any) -> Any:
+        named = Recording(**{name: given.pop(name) for name in names})
+        return command(recording=named, **given)
+
+    return _recording(bundled)
+
 
 as_json = click.option("--json", "as_json", is_flag=True, help="Answer for a program to read.")

@@ -31,14 +31,8 @@ def tell(performance: Performance, written: Sequence[str], *, as_json: bool) -> 
         print(json.dumps(_facts(performance, written), ensure_ascii=False), file=stream)
         return
     animation = performance.animation
-    line = (
-        f"{animation.duration:.2f} s, {len(animation)} frames at {animation.rate:g} per second, "
-        f"{len(animation.phones)} phones"
-    )
-    confidence = performance.speech.confidence
-    if confidence is not None:
-        line += f", confidence {confidence:.2f}"
-    print(line, file=stream)
+    frames = f"{len(animation)} frames at {animation.rate:g} per second"
+    print(f"{_sentence(performance.speech)}; {frames}", file=stream)
     for path in written:
         if path != STANDARD_STREAM:
             print(f"  {path}  ({ABOUT.get(Path(path).suffix.lower(), 'written')})", file=stream)
@@ -50,6 +44,35 @@ def tell(performance: Performance, written: Sequence[str], *, as_json: bool) -> 
     if nearest:
         pairs = ", ".join(f"{label} as {name}" for label, name in nearest.items())
         note(f"sounds without a class of their own: {pairs}")
+
+
+def tell_labels(speech: Speech, written: Sequence[str], *, as_json: bool) -> None:
+    """Report written phone times."""
+    stream = sys.stderr if STANDARD_STREAM in written else sys.stdout
+    files = [path for path in written if path != STANDARD_STREAM]
+    if as_json:
+        facts = {
+            "files": files,
+            "seconds": round(speech.duration, 6),
+            "phones": len(speech.phones),
+            "words": len(speech.words),
+            "source": speech.source,
+            "confidence": speech.confidence,
+            "notes": list(speech.notes),
+        }
+        print(json.dumps(facts, ensure_ascii=False), file=stream)
+        return
+    print(_sentence(speech), file=stream)
+    for path in files:
+        print(f"  {path}", file=stream)
+    notes(speech)
+
+
+def _sentence(speech: Speech) -> str:
+    counted = f"{speech.duration:.2f} s, {len(speech.words)} words, {len(speech.phones)} phones"
+    if speech.confidence is None:
+        return counted
+    return f"{counted}, confidence {speech.confidence:.2f}"
 
 
 def notes(speech: Speech) -> None:

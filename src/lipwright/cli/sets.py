@@ -47,12 +47,12 @@ def coverage(
     as_json: bool,
 ) -> None:
     """Say which pairs SET has, and which ones lines need that it lacks."""
-    from lipwright.cli.speak import _read_text
+    from lipwright.cli.speak import read_text
     from lipwright.engines.bigram.coverage import coverage as count
     from lipwright.engines.bigram.set_file import load_set
 
     if text_file is not None:
-        text = _read_text(text_file)
+        text = read_text(text_file)
     lines = _lines(text, voice, labels)
     found = count(load_set(name), lines)
     if as_json:

@@ -9,9 +9,20 @@ from typing import Any
 import click
 
 from lipwright.cli import options
+from lipwright.cli.options import Recording
 from lipwright.cli.progress import progress
 from lipwright.files import STANDARD_STREAM
 from lipwright.speech import Speech
+
+
+def _list_voices(ctx: click.Context, param: click.Parameter, value: bool) -> None:
+    if not value:
+        return
+    from lipwright.schedule.say import voices
+
+    for voice in voices():
+        click.echo(f"{voice.language:<16}{voice.name}")
+    ctx.exit()
 
 
 @click.command()
@@ -20,6 +31,14 @@ from lipwright.speech import Speech
 @click.option("--voice", default="en-us", show_default=True, help="Language or voice.")
 @click.option(
     "--speed", type=float, default=175.0, show_default=True, metavar="WPM", help="Words per minute."
+)
+@click.option(
+    "--voices",
+    is_flag=True,
+    is_eager=True,
+    expose_value=False,
+    callback=_list_voices,
+    help="List the voices, and leave.",
 )
 @click.option("--pitch", type=float, metavar="0..99", help="Height of the voice.")
 @options.animation
@@ -62,12 +81,7 @@ def _with_sound(outputs: tuple[str, ...]) -> tuple[str, ...]:
 @options.animation
 @options.as_json
 def animate(
-    sound: str,
-    text: str | None,
-    text_file: Path | None,
-    labels: Path | None,
-    phone_set: str | None,
-    lexicon: Path | None,
+    recording: Recording,
     outputs: tuple[str, ...],
     as_json: bool,
     **how: Any,
@@ -78,7 +92,7 @@ def animate(
     with neither the words are recognised (English).
     """
     _check(outputs)
-    speech = _speech(sound, text, text_file, labels, phone_set, lexicon)
+    speech = _speech(recording)
     _animate(speech, outputs, as_json, how)
 
 
@@ -87,63 +101,39 @@ def animate(
 @options.outputs("Where to: .TextGrid .lab .ctm .phn .json. May be repeated.")
 @options.as_json
 def phones(
-    sound: str,
-    text: str | None,
-    text_file: Path | None,
-    labels: Path | None,
-    phone_set: str | None,
-    lexicon: Path | None,
+    recording: Recording,
     outputs: tuple[str, ...],
     as_json: bool,
 ) -> None:
     """Say when each phone and word of the recording SOUND sounds."""
-    import json
-
     from lipwright import pipeline
-    from lipwright.cli.report import notes
+    from lipwright.cli.report import tell_labels
 
     pipeline.check_labels(*outputs)
-    speech = _speech(sound, text, text_file, labels, phone_set, lexicon)
+    speech = _speech(recording)
     pipeline.save_labels(speech, *outputs)
-    if as_json:
-        facts = {
-            "files": [path for path in outputs if path != STANDARD_STREAM],
-            "phones": len(speech.phones),
-            "words": len(speech.words),
-            "confidence": speech.confidence,
-            "notes": list(speech.notes),
-        }
-        click.echo(json.dumps(facts, ensure_ascii=False), err=STANDARD_STREAM in outputs)
-        return
-    notes(speech)
+    tell_labels(speech, outputs, as_json=as_json)
 
 
-def _speech(
-    sound: str,
-    text: str | None,
-    text_file: Path | None,
-    labels: Path | None,
-    phone_set: str | None,
-    lexicon: Path | None,
-) -> Speech:
+def _speech(given: Recording) -> Speech:
     from lipwright import pipeline
 
-    given = [name for name, value in (("--text", text), ("--text-file", text_file),
-                                      ("--labels", labels)) if value is not None]  # fmt: skip
-    if len(given) > 1:
-        raise click.UsageError(f"give one of {' and '.join(given)}, not both")
-    if labels is not None:
-        return pipeline.from_labels(labels, sound, phone_set=phone_set)
-    if text_file is not None:
-        text = _read_text(text_file)
+    ways = {"--text": given.text, "--text-file": given.text_file, "--labels": given.labels}
+    named = [name for name, value in ways.items() if value is not None]
+    if len(named) > 1:
+        raise click.UsageError(f"give one of {' and '.join(named)}, not both")
+    if given.labels is not None:
+        return pipeline.from_labels(given.labels, given.sound, phone_set=given.phone_set)
+    text = read_text(given.text_file) if given.text_file is not None else given.text
     if text is None:
         with progress("recognising") as report:
-            return pipeline.recognise(sound, progress=report)
+            return pipeline.recognise(given.sound, progress=report)
     with progress("aligning") as report:
-        return pipeline.align(sound, text, lexicon=lexicon, progress=report)
+        return pipeline.align(given.sound, text, lexicon=given.lexicon, progress=report)
 
 
-def _read_text(path: Path) -> str:
+def read_text(path: Path) -> str:
+    """Return the text in a file."""
     from lipwright.errors import TextError
     from lipwright.files import read_bytes
 

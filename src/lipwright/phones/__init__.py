@@ -5,7 +5,8 @@ example word. A reduction is a data file beside it: what each label of one set b
 in another (DESIGN section 3). Both are found by name, or read from a user's path.
 """
 
-from lipwright.phones.reduction import Piece, Reduction, ReductionReport, load_reduction
+from lipwright.phones.loading import load_reduction
+from lipwright.phones.reduction import Piece, Reduction, ReductionReport
 from lipwright.phones.sets import SILENCE, Phone, PhoneSet, load_phone_set, phone_set_names
 from lipwright.phones.track import PhoneTrack
 

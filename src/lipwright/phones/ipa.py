@@ -18,7 +18,7 @@ from functools import cache
 import msgspec
 
 from lipwright.files import convert, read_document
-from lipwright.phones.reduction import Piece, load_reduction
+from lipwright.phones.reduction import Piece, read_table
 from lipwright.phones.sets import DATA
 
 _VOWEL_WEIGHTS = (1.5, 0.6, 2.0)  # height, backness, rounding
@@ -72,7 +72,7 @@ def nearest_class(label: str) -> tuple[tuple[Piece, ...], bool] | None:
     >>> nearest_class("yː")
     ((Piece(label='w', share=3.0),), False)
     """
-    known = load_reduction("ipa").table
+    known = read_table(DATA / "ipa-to-common.json").pieces
     spellings = _features().spellings
     unified = "".join(spellings.get(letter, letter) for letter in label.translate(_STRESS))
     plain = unicodedata.normalize("NFC", unified)
@@ -165,7 +165,7 @@ def _class_of(segment: _Segment) -> str:
     features = _features()
     if segment.rhotic:
         return "er"
-    known = load_reduction("ipa").table.get(segment.letter, ())
+    known = read_table(DATA / "ipa-to-common.json").pieces.get(segment.letter, ())
     if len(known) == 1 and not _is_vowel(segment):
         return known[0].label
     letters = features.vowels if _is_vowel(segment) else features.consonants

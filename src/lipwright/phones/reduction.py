@@ -16,7 +16,7 @@ import msgspec
 
 from lipwright.errors import LabelError
 from lipwright.files import convert, read_document
-from lipwright.phones.sets import DATA, SILENCE, load_phone_set
+from lipwright.phones.sets import SILENCE, load_phone_set
 from lipwright.phones.track import PhoneTrack
 from lipwright.timeline import Interval
 
@@ -155,46 +155,22 @@ class _Document(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     about: str = ""
 
 
+@dataclass(frozen=True, slots=True)
+class Table:
+    """The content of a reduction file: ``pieces`` of each label of ``source``."""
+
+    source: str
+    target: str
+    pieces: dict[str, tuple[Piece, ...]]
+
+
 @cache
-def load_reduction(source: str, target: str = "common") -> Reduction:
-    """Return the reduction between two phone sets, or the one in a file.
-
-    Parameters
-    ----------
-    source : str
-        A phone set's name, or the path of a reduction file ending in ``.json``.
-    target : str
-        The phone set to reduce to.
-
-    Raises
-    ------
-    LabelError
-        If there is no such reduction.
-    """
-    if source == target:
-        return Reduction(source, target, {}, lambda label: ((Piece(label),), True))
-    by_path = source.endswith(".json")
-    path = Path(source) if by_path else DATA / f"{source}-to-{target}.json"
-    if not by_path and not path.exists():
-        raise LabelError(
-            f"no reduction from {source!r} to {target!r}", cure="write one, and give its path"
-        )
-    read = convert(
-        read_document(path, format="lipwright/reduction", version=1), _Document, str(path)
-    )
-    table = {
+def read_table(path: Path) -> Table:
+    """Return the content of a reduction file."""
+    document = read_document(path, format="lipwright/reduction", version=1)
+    read = convert(document, _Document, str(path))
+    pieces = {
         label: (Piece(value),) if isinstance(value, str) else tuple(value)
         for label, value in read.map.items()
     }
-    return Reduction(read.source, read.target, table, _finder(read.source, read.target))
-
-
-def _finder(source: str, target: str) -> Finder | None:
-    if target != "common" or source not in ("ipa", "sampa"):
-        return None
-    from lipwright.phones.ipa import nearest_class  # only IPA needs its tables
-
-    if source == "ipa":
-        return nearest_class
-    to_ipa = load_reduction("sampa", "ipa").table
-    return lambda label: nearest_class(to_ipa[label][0].label) if label in to_ipa else None
+    return Table(read.source, read.target, pieces)
