@@ -4,13 +4,16 @@ DESIGN section 4 asks for 6 ms or less for 500 phones, nine poses, all stages wi
 ``why`` needs, and 60 samples per second, on one core, and for growth that is linear.
 """
 
+import tracemalloc
+
 import numpy as np
 
 from bench.measure import milliseconds, say
-from lipwright.engines.bigram import BigramEngine, load_set
+from lipwright.engines.bigram import BigramEngine, load_set, read_set
 from lipwright.engines.bigram import stages as stage
 from lipwright.engines.bigram.polyline import Axis
 from lipwright.engines.bigram.preparation import prepare
+from lipwright.engines.bigram.set_file import DATA
 from lipwright.phones import PhoneTrack, load_phone_set, load_reduction
 from lipwright.speech import Speech
 from lipwright.timeline import Interval, Tier
@@ -37,7 +40,11 @@ def measure_whole(engine: BigramEngine, count: int) -> None:
     runs = 40 if count <= 500 else 10
     figures = milliseconds(lambda: engine.animate(speech), runs)
     per_phone = round(1e3 * figures["median_ms"] / count, 2)
-    say(f"engine, {count} phones", **figures, per_phone_us=per_phone)
+    tracemalloc.start()
+    engine.animate(speech)
+    peak = round(tracemalloc.get_traced_memory()[1] / 1e6, 2)
+    tracemalloc.stop()
+    say(f"engine, {count} phones", **figures, per_phone_us=per_phone, peak_mb=peak)
 
 
 def measure_stages(engine: BigramEngine, count: int) -> None:
@@ -73,11 +80,5 @@ if __name__ == "__main__":
         measure_whole(made, size)
     for size in (500, 5000):
         measure_stages(made, size)
-    load_set.cache_clear()
-
-    def load() -> None:
-        """Read the set's file anew."""
-        load_set.cache_clear()
-        load_set("english")
-
-    say("read the English set", **milliseconds(load, runs=10))
+    path = DATA / "english.json"
+    say("read the English set", **milliseconds(lambda: read_set(path), runs=10))

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from functools import cache, partial
+from functools import lru_cache, partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -162,7 +162,7 @@ def animate(
 
     if engine != "bigram":
         raise InputError(f"no engine {engine!r}", expected="bigram")
-    made = bigram_engine(str(bigram_set), preset, str(overrides) if overrides else None)
+    made = engine_for(bigram_set, preset, overrides)
     animation = made.animate(speech, rate)
     actor = load_character(character, mapping)
     if actor.name not in BUILT_IN:  # a built-in one fits, and is made only when it is shown
@@ -170,11 +170,30 @@ def animate(
     return Performance(animation, speech, partial(actor.rig, animation))
 
 
-@cache
-def bigram_engine(
-    bigram_set: str = "english", preset: str = "default", overrides: str | None = None
+def engine_for(
+    bigram_set: str | Path = "english",
+    preset: str = "default",
+    overrides: str | Path | None = None,
 ) -> BigramEngine:
-    """Return the engine for a set; made once, it serves any number of lines."""
+    """Return the engine for a set; it is made once, and anew when a file of it changes."""
+    changing = str(overrides) if overrides else None
+    versions = (_version(str(bigram_set)), _version(changing))
+    return _engine(str(bigram_set), preset, changing, versions)
+
+
+def _version(path: str | None) -> tuple[int, int] | None:
+    """Return what tells one state of a file from the next; None for what is no file."""
+    try:
+        state = Path(path).stat() if path else None
+    except OSError:
+        return None
+    return (state.st_mtime_ns, state.st_size) if state else None
+
+
+@lru_cache(maxsize=8)
+def _engine(
+    bigram_set: str, preset: str, overrides: str | None, versions: tuple[object, ...]
+) -> BigramEngine:
     from lipwright.engines.bigram import BigramEngine, load_set, read_overrides
 
     base = load_set(bigram_set)

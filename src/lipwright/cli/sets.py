@@ -149,7 +149,7 @@ def why(
     """Say why the controls of an animation have their values at an instant."""
     from lipwright.animation import Animation
     from lipwright.engines.bigram.why import why as explain
-    from lipwright.pipeline import bigram_engine
+    from lipwright.pipeline import engine_for
 
     animation = Animation.load(line)
     if animation.engine != "bigram":
@@ -159,7 +159,7 @@ def why(
             expected="an animation of the bigram engine",
         )
     name, preset = animation.report.get("set", "english"), animation.report.get("preset", "default")
-    engine = bigram_engine(str(name), str(preset), str(overrides) if overrides else None)
+    engine = engine_for(str(name), str(preset), overrides)
     solved = engine.solve(animation.phones)
     names = [control] if control else list(animation.controls)
     found = [explain(engine, solved, name, time) for name in names]

@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import sys
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +14,7 @@ import click
 from lipwright.cli import options
 from lipwright.cli.options import Recording
 from lipwright.cli.progress import progress
+from lipwright.errors import LipwrightError
 from lipwright.files import STANDARD_STREAM
 from lipwright.speech import Speech
 
@@ -63,8 +67,23 @@ def say(
     _check(files)
     if text == STANDARD_STREAM:
         text = sys.stdin.read()
-    speech = pipeline.say(text, voice=voice, rate=speed, pitch=pitch)
+    with _meanwhile(pipeline.engine_for, how["bigram_set"], how["preset"], how["overrides"]):
+        speech = pipeline.say(text, voice=voice, rate=speed, pitch=pitch)
     _animate(speech, files, as_json, how)
+
+
+@contextmanager
+def _meanwhile(work: Callable[..., object], *arguments: object) -> Iterator[None]:
+    """Do what will be needed while a child process speaks; its errors come up when it is used."""
+
+    def quietly() -> None:
+        with suppress(LipwrightError):
+            work(*arguments)
+
+    thread = threading.Thread(target=quietly, daemon=True)
+    thread.start()
+    yield
+    thread.join()
 
 
 def _with_sound(outputs: tuple[str, ...]) -> tuple[str, ...]:

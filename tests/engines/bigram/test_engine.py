@@ -1,14 +1,17 @@
 """The engine as its users meet it: lines in, animation out; stand-ins, why, coverage."""
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 
+from lipwright import pipeline
 from lipwright.curves import Keys
 from lipwright.engines.bigram import BigramEngine, load_set
 from lipwright.engines.bigram.coverage import coverage
 from lipwright.engines.bigram.model import BigramSet
+from lipwright.engines.bigram.set_file import DATA
 from lipwright.engines.bigram.stand_in import stand_in
 from lipwright.engines.bigram.why import why
 from lipwright.errors import InputError, LabelError
@@ -158,3 +161,15 @@ def test_coverage_counts_what_lines_need() -> None:
 def test_coverage_names_phones_without_a_single_curve() -> None:
     bare = replace(lacking(("bmp", "ay")), singles={})
     assert coverage(bare, [PIPER]).bare == ("ay", "bmp")
+
+
+def test_a_set_that_is_edited_is_read_again(tmp_path: Path) -> None:
+    """An animator saves the set and runs the same session again."""
+    path = tmp_path / "mine.json"
+    text = (DATA / "english.json").read_text()
+    levels = []
+    for gain in ("0.68", "0.34"):
+        path.write_text(text.replace("0.68]", f"{gain}]"))
+        performance = pipeline.animate(Speech(PIPER), bigram_set=path)
+        levels.append(performance.animation.keys["open"].values.max())
+    assert levels[1] < levels[0]

@@ -70,7 +70,6 @@ class _Overrides(_Struct, frozen=True):
     settings: dict[str, Any] = {}
 
 
-@cache
 def load_set(name: str) -> BigramSet:
     """Return a set that comes with Lipwright by name, or the one in a ``.json`` file.
 
@@ -79,8 +78,11 @@ def load_set(name: str) -> BigramSet:
     SetError, FileFormatError
         If it is unknown or broken; the message names the place in the file.
     """
-    if name.endswith(".json"):
-        return read_set(name)
+    return read_set(name) if name.endswith(".json") else _built_in(name)
+
+
+@cache
+def _built_in(name: str) -> BigramSet:
     path = DATA / f"{name}.json"
     if not path.exists():
         known = ", ".join(sorted(p.stem for p in DATA.glob("*.json")))
