@@ -128,6 +128,7 @@ def animate(
     bigram_set: str | Path = "english",
     preset: str = "default",
     overrides: str | Path | None = None,
+    reduction: str | Path | None = None,
     character: str | Path = "head",
     mapping: str | Path | None = None,
     rate: float = 60.0,
@@ -146,6 +147,9 @@ def animate(
         ``"default"``, ``"published"``, or one that the set brings.
     overrides : path, optional
         A file that changes single bigrams, gains or settings of the set.
+    reduction : path, optional
+        A file that says what phones become in the set's classes, instead of the one
+        that comes with Lipwright.
     character : str or path
         ``"head"``, or a GLB, VRM or glTF file.
     mapping : path, optional
@@ -162,7 +166,7 @@ def animate(
 
     if engine != "bigram":
         raise InputError(f"no engine {engine!r}", expected="bigram")
-    made = engine_for(bigram_set, preset, overrides)
+    made = engine_for(bigram_set, preset, overrides, reduction)
     animation = made.animate(speech, rate)
     actor = load_character(character, mapping)
     if actor.name not in BUILT_IN:  # a built-in one fits, and is made only when it is shown
@@ -174,11 +178,12 @@ def engine_for(
     bigram_set: str | Path = "english",
     preset: str = "default",
     overrides: str | Path | None = None,
+    reduction: str | Path | None = None,
 ) -> BigramEngine:
     """Return the engine for a set; it is made once, and anew when a file of it changes."""
-    changing = str(overrides) if overrides else None
-    versions = (_version(str(bigram_set)), _version(changing))
-    return _engine(str(bigram_set), preset, changing, versions)
+    files = [str(path) if path else None for path in (overrides, reduction)]
+    versions = tuple(map(_version, (str(bigram_set), *files)))
+    return _engine(str(bigram_set), preset, files[0], files[1], versions)
 
 
 def _version(path: str | None) -> tuple[int, int] | None:
@@ -192,12 +197,16 @@ def _version(path: str | None) -> tuple[int, int] | None:
 
 @lru_cache(maxsize=8)
 def _engine(
-    bigram_set: str, preset: str, overrides: str | None, versions: tuple[object, ...]
+    bigram_set: str,
+    preset: str,
+    overrides: str | None,
+    reduction: str | None,
+    versions: tuple[object, ...],
 ) -> BigramEngine:
     from lipwright.engines.bigram import BigramEngine, load_set, read_overrides
 
     base = load_set(bigram_set)
-    return BigramEngine(read_overrides(overrides, base) if overrides else base, preset)
+    return BigramEngine(read_overrides(overrides, base) if overrides else base, preset, reduction)
 
 
 def save(performance: Performance, *paths: str | Path) -> None:

@@ -49,6 +49,10 @@ animation = stack(
         help="A file that changes single bigrams, gains or settings.",
     ),
     click.option(
+        "--reduction", type=click.Path(path_type=Path), metavar="FILE",
+        help="What phones become in the set's classes.",
+    ),
+    click.option(
         "--character", default="head", show_default=True, metavar="MODEL",
         help="head, or a .glb, .vrm or .gltf file.",
     ),

@@ -37,6 +37,10 @@ def bigram_set() -> None:
     "--labels", type=click.Path(path_type=Path), multiple=True, metavar="FILE",
     help="Count the pairs of phone times that exist. May be repeated.",
 )  # fmt: skip
+@click.option(
+    "--reduction", type=click.Path(path_type=Path), metavar="FILE",
+    help="What phones become in the set's classes.",
+)  # fmt: skip
 @options.as_json
 def coverage(
     name: str,
@@ -44,6 +48,7 @@ def coverage(
     text_file: Path | None,
     voice: str,
     labels: tuple[Path, ...],
+    reduction: Path | None,
     as_json: bool,
 ) -> None:
     """Say which pairs SET has, and which ones lines need that it lacks."""
@@ -54,7 +59,7 @@ def coverage(
     if text_file is not None:
         text = read_text(text_file)
     lines = _lines(text, voice, labels)
-    found = count(load_set(name), lines)
+    found = count(load_set(name), lines, str(reduction) if reduction else None)
     if as_json:
         click.echo(json.dumps(_facts(found)))
     else:

@@ -67,7 +67,8 @@ def say(
     _check(files)
     if text == STANDARD_STREAM:
         text = sys.stdin.read()
-    with _meanwhile(pipeline.engine_for, how["bigram_set"], how["preset"], how["overrides"]):
+    files = (how["bigram_set"], how["preset"], how["overrides"], how["reduction"])
+    with _meanwhile(pipeline.engine_for, *files):
         speech = pipeline.say(text, voice=voice, rate=speed, pitch=pitch)
     _animate(speech, files, as_json, how)
 

@@ -6,9 +6,10 @@ from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass
 
+from lipwright.engines.bigram.engine import reduction_for
 from lipwright.engines.bigram.model import BigramSet, Pair
 from lipwright.engines.bigram.preparation import prepare
-from lipwright.phones import PhoneTrack, load_phone_set, load_reduction
+from lipwright.phones import PhoneTrack, load_phone_set
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,7 +39,9 @@ class Coverage:
         return 1 - sum(self.needed[pair] for pair in self.missing) / total
 
 
-def coverage(of: BigramSet, lines: Iterable[PhoneTrack] | None = None) -> Coverage:
+def coverage(
+    of: BigramSet, lines: Iterable[PhoneTrack] | None = None, reduction: str | None = None
+) -> Coverage:
     """Return which pairs are needed and which of them a set lacks.
 
     Parameters
@@ -46,6 +49,8 @@ def coverage(of: BigramSet, lines: Iterable[PhoneTrack] | None = None) -> Covera
     of : BigramSet
     lines : iterable of PhoneTrack, optional
         The lines to be animated; without them every pair of classes counts once.
+    reduction : str, optional
+        Path of a reduction file of the user's.
     """
     classes = load_phone_set(of.phone_set).labels
     counts: Counter[Pair] = Counter()
@@ -54,7 +59,7 @@ def coverage(of: BigramSet, lines: Iterable[PhoneTrack] | None = None) -> Covera
     else:
         settings = of.rules.settings
         for track in lines:
-            rows, _ = load_reduction(track.phone_set, of.phone_set).rows(track)
+            rows, _ = reduction_for(of, track.phone_set, reduction).rows(track)
             spans = prepare(rows, settings.padding, settings.silence_reach)
             counts.update(spans.pairs)
     needed = dict(counts.most_common())

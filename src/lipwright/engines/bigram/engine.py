@@ -23,8 +23,8 @@ from lipwright.engines.bigram.softening import sample
 from lipwright.engines.bigram.stages import Plan, Stages, run
 from lipwright.engines.bigram.stand_in import STAND_IN
 from lipwright.engines.bigram.table import Table
-from lipwright.errors import InputError
-from lipwright.phones import PhoneTrack, load_reduction
+from lipwright.errors import InputError, LabelError
+from lipwright.phones import PhoneTrack, Reduction, load_phone_set, load_reduction
 from lipwright.phones.reduction import ReductionReport
 from lipwright.speech import Speech
 
@@ -49,6 +49,35 @@ class Solved:
     spans: Spans
     stages: Stages | None
     reduction: ReductionReport
+
+
+def reduction_for(of: BigramSet, source: str, path: str | None = None) -> Reduction:
+    """Return what reduces a phone set's labels to a set's classes.
+
+    Parameters
+    ----------
+    of : BigramSet
+    source : str
+        The phone set of the labels.
+    path : str, optional
+        A reduction file of the user's.
+
+    Raises
+    ------
+    LabelError
+        If there is none, or the file is for other labels or other classes.
+    """
+    if path is None:
+        return load_reduction(source, of.phone_set)
+    found = load_reduction(path)
+    classes = load_phone_set(of.phone_set).name
+    if (found.source, found.target) != (load_phone_set(source).name, classes):
+        raise LabelError(
+            f"reduces {found.source!r} to {found.target!r}",
+            where=path,
+            expected=f"{source!r} to {classes!r}, as these phones and this set need",
+        )
+    return found
 
 
 class BigramEngine:
@@ -95,8 +124,7 @@ class BigramEngine:
         LabelError
             If phones are unknown or overlap.
         """
-        reduction = load_reduction(self._reduction or track.phone_set, self.of.phone_set)
-        rows, report = reduction.rows(track)
+        rows, report = reduction_for(self.of, track.phone_set, self._reduction).rows(track)
         settings = self.rules.settings
         spans = prepare(rows, settings.padding, settings.silence_reach)
         if not spans.labels:

@@ -95,12 +95,15 @@ def read_set(path: str | Path) -> BigramSet:
     where = str(path)
     read = convert(read_document(path, format=FORMAT, version=VERSION), _Set, where)
     try:
-        classes = load_phone_set(read.phone_set)
+        # A user's own phone set is a file beside the set.
+        own = read.phone_set.endswith(".json")
+        phone_set = str(Path(path).parent / read.phone_set) if own else read.phone_set
+        classes = load_phone_set(phone_set)
         for label in (*read.phones, *read.reach):
             _check_label(label, classes)
         return BigramSet(
             read.name,
-            read.phone_set,
+            phone_set,
             read.rules,
             _bigrams(read.bigrams, read.boundary, read.name, classes),
             {label: _curves(c, f"phone {label!r}") for label, c in read.phones.items()},
