@@ -14,6 +14,7 @@ import pytest
 
 from lipwright.animation import Animation
 from lipwright.cli import main
+from lipwright.engines.bigram.set_file import DATA
 from tests.conftest import LINE
 
 PIPER = "Peter Piper picked a peck of pickled peppers."
@@ -122,6 +123,26 @@ def test_set_commands(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> Non
     assert "drawn by" in capsys.readouterr().out
     assert run("set", "why", tmp_path / "a.json", "--time", "0.3", "--json") == 0
     assert json.loads(capsys.readouterr().out)[0]["origins"][0]["source"] == "english"
+
+
+def test_why_says_when_the_set_has_changed(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    text = (DATA / "english.json").read_text().replace('"name": "english"', '"name": "mine"')
+    mine = tmp_path / "mine.json"
+    mine.write_text(text)
+    line = tmp_path / "line.json"
+    assert run("say", "Father", "--set", mine, "-o", line) == 0
+    animation = Animation.load(line)
+    time = float(animation.times[animation.control("open").argmax()])
+    capsys.readouterr()
+    assert run("set", "why", line, "--time", time) == 1
+    assert "--set" in capsys.readouterr().err
+    assert run("set", "why", line, "--time", time, "--control", "open", "--set", mine) == 0
+    assert capsys.readouterr().err == ""
+    mine.write_text(text.replace('"softness": 0.06', '"softness": 0.2'))
+    assert run("set", "why", line, "--time", time, "--control", "open", "--set", mine) == 0
+    assert "in the file" in capsys.readouterr().err
 
 
 def test_character_inspect(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -13,7 +13,17 @@ from tools.english.knowledge import CLOSING, SOUNDS, TONGUE, Levels, Sound
 Points = list[tuple[float, float]]
 POSES = ("open", "W", "ShCh", "PBM", "FV", "wide", *TONGUE)
 SEEN = 0.04
-BEFORE_SILENCE = 0.85
+
+#: When a shape begins to form out of silence, and when it has gone after the last sound,
+#: as shares of the pair's time: the tongue moves late and is gone early.
+ONSET = {"open": 0.25, "W": 0.10, "ShCh": 0.15, "wide": 0.20}
+OFFSET = {"open": 0.86, "W": 0.90, "ShCh": 0.88, "wide": 0.92}
+#: Share of the sound before in which a shape begins to form, and of the sound after in
+#: which it is still seen, where that sound does not have it.
+LEAD = {"open": 0.60, "W": 0.85, "ShCh": 0.70, "wide": 0.60}
+LINGER = {"open": 0.50, "W": 0.55, "ShCh": 0.50, "wide": 0.50}
+#: The same of the jaw beside a closure.
+CLOSED = 0.10
 
 
 def curves(first: str, second: str) -> dict[str, Points]:
@@ -83,31 +93,23 @@ def _shape(before: Sound, after: Sound, leaving: float, coming: float, pose: str
 
 
 def _onset(pose: str) -> float:
-    """When a shape begins to form out of silence: lips round early, the tongue late."""
-    return {"W": 0.1, "ShCh": 0.15, "open": 0.25, "wide": 0.2}.get(pose, 0.32)
+    return ONSET.get(pose, 0.32)
 
 
 def _offset(pose: str) -> float:
-    """When a shape has gone after the last sound."""
-    return {"open": 0.86, "W": 0.9, "ShCh": 0.88, "wide": 0.92}.get(pose, 0.7)
+    return OFFSET.get(pose, 0.7)
 
 
 def _lead(before: Sound, pose: str) -> float:
-    """Share of the sound before in which a shape begins to form."""
-    if pose in TONGUE:
-        return 0.4
     if before.kind == "closure" and pose == "open":
-        return 0.1
-    return {"W": 0.85, "ShCh": 0.7}.get(pose, 0.6)
+        return CLOSED
+    return LEAD.get(pose, 0.4)
 
 
 def _linger(after: Sound, pose: str) -> float:
-    """Share of the sound after in which a shape is still seen."""
-    if pose in TONGUE:
-        return 0.35
     if after.kind == "closure" and pose == "open":
-        return 0.1
-    return {"W": 0.55, "ShCh": 0.5}.get(pose, 0.5)
+        return CLOSED
+    return LINGER.get(pose, 0.35)
 
 
 def _closure(first: str, second: str, pose: str) -> Points:

@@ -10,9 +10,11 @@ from typing import TYPE_CHECKING
 import click
 
 from lipwright.cli import options
+from lipwright.cli.report import note
 from lipwright.errors import InputError
 
 if TYPE_CHECKING:
+    from lipwright.animation import Animation
     from lipwright.curves import Keys
     from lipwright.engines.bigram.coverage import Coverage
     from lipwright.engines.bigram.why import Explanation
@@ -21,6 +23,7 @@ if TYPE_CHECKING:
 COLUMNS = 48
 BLOCKS = " ▁▂▃▄▅▆▇█"
 SEEN = 0.005
+CHANGED = 0.01
 
 
 @click.group(name="set")
@@ -143,15 +146,27 @@ def _chart(keys: Keys) -> str:
 @click.argument("line", type=click.Path(path_type=Path), metavar="LINE.json")
 @click.option("--time", type=float, required=True, metavar="SECONDS", help="The instant.")
 @click.option("--control", metavar="NAME", help="Only this control.")
+@click.option("--set", "name", metavar="SET", help="The set it was made with, if a file.")
 @click.option(
-    "--overrides", type=click.Path(path_type=Path), metavar="FILE",
-    help="The overrides that the line was made with.",
-)  # fmt: skip
+    "--overrides", type=click.Path(path_type=Path), metavar="FILE", help="The same of overrides."
+)
+@click.option(
+    "--reduction", type=click.Path(path_type=Path), metavar="FILE", help="The same of a reduction."
+)
 @options.as_json
 def why(
-    line: Path, time: float, control: str | None, overrides: Path | None, as_json: bool
+    line: Path,
+    time: float,
+    control: str | None,
+    name: str | None,
+    overrides: Path | None,
+    reduction: Path | None,
+    as_json: bool,
 ) -> None:
-    """Say why the controls of an animation have their values at an instant."""
+    """Say why the controls of an animation have their values at an instant.
+
+    The instant is that of the nearest frame.
+    """
     from lipwright.animation import Animation
     from lipwright.engines.bigram.why import why as explain
     from lipwright.pipeline import engine_for
@@ -163,14 +178,40 @@ def why(
             where=str(line),
             expected="an animation of the bigram engine",
         )
-    name, preset = animation.report.get("set", "english"), animation.report.get("preset", "default")
-    engine = engine_for(str(name), str(preset), overrides)
+    preset = str(animation.report.get("preset", "default"))
+    chosen = name or _set_of(animation.report, line)
+    engine = engine_for(chosen, preset, overrides, reduction)
     solved = engine.solve(animation.phones)
+    instants = animation.times
+    frame = int(abs(instants - time).argmin())
     names = [control] if control else list(animation.controls)
-    found = [explain(engine, solved, name, time) for name in names]
+    found = [explain(engine, solved, one, float(instants[frame])) for one in names]
+    _warn_of_changes(found, animation, frame)
     if not control:
         found = [one for one in found if one.value > SEEN or one.origins]
     _tell(found, time, as_json)
+
+
+def _set_of(report: dict[str, object], line: Path) -> str:
+    from lipwright.engines.bigram.set_file import built_in_sets
+
+    name = str(report.get("set", ""))
+    if name not in built_in_sets():
+        raise InputError(
+            f"made with the set {name!r}", where=str(line), cure="name its file with --set"
+        )
+    return name
+
+
+def _warn_of_changes(found: list[Explanation], animation: Animation, frame: int) -> None:
+    for one in found:
+        if one.control in animation.controls:
+            stored = float(animation.control(one.control)[frame])
+            if abs(stored - one.value) > CHANGED:
+                note(
+                    f"{one.control} is {stored:.3f} in the file and {one.value:.3f} now: it was "
+                    f"edited, or made with another set, overrides or reduction"
+                )
 
 
 def _tell(found: list[Explanation], time: float, as_json: bool) -> None:

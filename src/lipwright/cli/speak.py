@@ -67,8 +67,8 @@ def say(
     _check(files)
     if text == STANDARD_STREAM:
         text = sys.stdin.read()
-    files = (how["bigram_set"], how["preset"], how["overrides"], how["reduction"])
-    with _meanwhile(pipeline.engine_for, *files):
+    of = [how[name] for name in ("bigram_set", "preset", "overrides", "reduction")]
+    with _meanwhile(pipeline.engine_for, *of):
         speech = pipeline.say(text, voice=voice, rate=speed, pitch=pitch)
     _animate(speech, files, as_json, how)
 

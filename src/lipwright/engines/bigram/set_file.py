@@ -81,11 +81,16 @@ def load_set(name: str) -> BigramSet:
     return read_set(name) if name.endswith(".json") else _built_in(name)
 
 
+def built_in_sets() -> tuple[str, ...]:
+    """Return the names of the sets that come with Lipwright."""
+    return tuple(sorted(path.stem for path in DATA.glob("*.json")))
+
+
 @cache
 def _built_in(name: str) -> BigramSet:
     path = DATA / f"{name}.json"
     if not path.exists():
-        known = ", ".join(sorted(p.stem for p in DATA.glob("*.json")))
+        known = ", ".join(built_in_sets())
         raise SetError(f"no bigram set {name!r}", expected=f"one of {known}, or a .json file")
     return read_set(path)
 
