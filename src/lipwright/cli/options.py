@@ -53,6 +53,10 @@ animation = stack(
         help="What phones become in the set's classes.",
     ),
     click.option(
+        "--edits", type=click.Path(path_type=Path), metavar="FILE",
+        help="Corrections of this line, hung on its words and phones.",
+    ),
+    click.option(
         "--character", default="head", show_default=True, metavar="MODEL",
         help="head, or a .glb, .vrm or .gltf file.",
     ),

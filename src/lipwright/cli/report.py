@@ -40,6 +40,9 @@ def tell(performance: Performance, written: Sequence[str], *, as_json: bool) -> 
     stand_ins = animation.report.get("stand_ins", [])
     if stand_ins:
         note(f"the set lacks {', '.join(stand_ins)}: made from single phones")
+    lost = animation.report.get("edits_lost", [])
+    if lost:
+        note(f"edits that find no phone in this line: {', '.join(lost)}")
     nearest = animation.report.get("nearest_classes", {})
     if nearest:
         pairs = ", ".join(f"{label} as {name}" for label, name in nearest.items())

@@ -153,6 +153,7 @@ def _chart(keys: Keys) -> str:
 @click.option(
     "--reduction", type=click.Path(path_type=Path), metavar="FILE", help="The same of a reduction."
 )
+@click.option("--edits", type=click.Path(path_type=Path), metavar="FILE", help="The same of edits.")
 @options.as_json
 def why(
     line: Path,
@@ -161,6 +162,7 @@ def why(
     name: str | None,
     overrides: Path | None,
     reduction: Path | None,
+    edits: Path | None,
     as_json: bool,
 ) -> None:
     """Say why the controls of an animation have their values at an instant.
@@ -168,6 +170,7 @@ def why(
     The instant is that of the nearest frame.
     """
     from lipwright.animation import Animation
+    from lipwright.engines.bigram import read_edits
     from lipwright.engines.bigram.why import why as explain
     from lipwright.pipeline import engine_for
 
@@ -181,7 +184,7 @@ def why(
     preset = str(animation.report.get("preset", "default"))
     chosen = name or _set_of(animation.report, line)
     engine = engine_for(chosen, preset, overrides, reduction)
-    solved = engine.solve(animation.phones)
+    solved = engine.solve(animation.phones, animation.words, read_edits(edits) if edits else ())
     instants = animation.times
     frame = int(abs(instants - time).argmin())
     names = [control] if control else list(animation.controls)

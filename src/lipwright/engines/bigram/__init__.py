@@ -5,8 +5,18 @@ animation with it; :func:`why` says which curve put a value there; :func:`covera
 which pairs a text needs.
 """
 
+from lipwright.engines.bigram.edits import Edit, read_edits
 from lipwright.engines.bigram.engine import BigramEngine
 from lipwright.engines.bigram.model import Bigram, BigramSet
 from lipwright.engines.bigram.set_file import load_set, read_overrides, read_set
 
-__all__ = ["Bigram", "BigramEngine", "BigramSet", "load_set", "read_overrides", "read_set"]
+__all__ = [
+    "Bigram",
+    "BigramEngine",
+    "BigramSet",
+    "Edit",
+    "load_set",
+    "read_edits",
+    "read_overrides",
+    "read_set",
+]

@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from lipwright.engines.bigram.engine import reduction_for
+from lipwright.engines.bigram.classes import reduction_for
 from lipwright.engines.bigram.model import BigramSet, Pair
 from lipwright.engines.bigram.preparation import prepare
 from lipwright.phones import PhoneTrack, load_phone_set

@@ -7,7 +7,8 @@ An engine is made once for a set and then takes any number of lines.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -15,18 +16,30 @@ import numpy as np
 
 from lipwright.animation import Animation
 from lipwright.curves import Keys
+from lipwright.engines.bigram.classes import reduction_for
 from lipwright.engines.bigram.closures import keep_closures
+from lipwright.engines.bigram.edits import (
+    Edit,
+    Found,
+    added_lines,
+    check_poses,
+    find,
+    reach,
+    redraw,
+    scale_placed,
+)
 from lipwright.engines.bigram.model import BigramSet, Pair, Rules
 from lipwright.engines.bigram.polyline import Axis, Floats
 from lipwright.engines.bigram.preparation import Spans, prepare
 from lipwright.engines.bigram.softening import sample
-from lipwright.engines.bigram.stages import Plan, Stages, run
+from lipwright.engines.bigram.stages import Plan, Stages, bound, run
 from lipwright.engines.bigram.stand_in import STAND_IN
-from lipwright.engines.bigram.table import Table
-from lipwright.errors import InputError, LabelError
-from lipwright.phones import PhoneTrack, Reduction, load_phone_set, load_reduction
+from lipwright.engines.bigram.table import Placed, Table
+from lipwright.errors import InputError
+from lipwright.phones import PhoneTrack
 from lipwright.phones.reduction import ReductionReport
 from lipwright.speech import Speech
+from lipwright.timeline import Tier
 
 RATE = 60.0
 FASTEST = 10_000.0
@@ -44,40 +57,22 @@ class Solved:
         None where nothing is said.
     reduction : ReductionReport
         Which phones only the nearest class stood in for.
+    edits : tuple of Found
+        Edits that found their phone.
+    lost : tuple of str
+        Names of those that did not.
     """
 
     spans: Spans
     stages: Stages | None
     reduction: ReductionReport
+    edits: tuple[Found, ...] = ()
+    lost: tuple[str, ...] = ()
 
-
-def reduction_for(of: BigramSet, source: str, path: str | None = None) -> Reduction:
-    """Return what reduces a phone set's labels to a set's classes.
-
-    Parameters
-    ----------
-    of : BigramSet
-    source : str
-        The phone set of the labels.
-    path : str, optional
-        A reduction file of the user's.
-
-    Raises
-    ------
-    LabelError
-        If there is none, or the file is for other labels or other classes.
-    """
-    if path is None:
-        return load_reduction(source, of.phone_set)
-    found = load_reduction(path)
-    classes = load_phone_set(of.phone_set).name
-    if (found.source, found.target) != (load_phone_set(source).name, classes):
-        raise LabelError(
-            f"reduces {found.source!r} to {found.target!r}",
-            where=path,
-            expected=f"{source!r} to {classes!r}, as these phones and this set need",
-        )
-    return found
+    @property
+    def unlocked(self) -> set[str]:
+        """Poses that an edit keeps free of bounds."""
+        return {one.edit.pose for one in self.edits if one.edit.keys and one.edit.unlocked}
 
 
 class BigramEngine:
@@ -116,23 +111,59 @@ class BigramEngine:
     def _output(self) -> list[int]:
         return [self.plan.names.index(name) for name in self.rules.names]
 
-    def solve(self, track: PhoneTrack) -> Solved:
+    def solve(
+        self, track: PhoneTrack, words: Tier | None = None, edits: Sequence[Edit] = ()
+    ) -> Solved:
         """Take a line through stages 1 to 5.
+
+        Parameters
+        ----------
+        track : PhoneTrack
+        words : Tier, optional
+            What edits hang on.
+        edits : sequence of Edit
+            Corrections of this line.
 
         Raises
         ------
         LabelError
             If phones are unknown or overlap.
+        InputError
+            If an edit names a pose that the set has not.
         """
         rows, report = reduction_for(self.of, track.phone_set, self._reduction).rows(track)
         settings = self.rules.settings
         spans = prepare(rows, settings.padding, settings.silence_reach)
         if not spans.labels:
-            return Solved(spans, None, report)
+            return Solved(spans, None, report, lost=tuple(edit.name for edit in edits))
         placed = self.table.place(spans, settings.warp)
-        start, end = spans.first[0], spans.last[-1]
-        stages = run(placed, float(start), float(end), self.plan, self.rules)
-        return Solved(spans, stages, report)
+        check_poses(edits, self.plan.names)
+        found, lost = find(edits, track.tier.intervals, words or Tier())
+        stages = self._run(placed, spans, found)
+        return Solved(spans, stages, report, found, lost)
+
+    def _run(self, placed: Placed, spans: Spans, found: tuple[Found, ...]) -> Stages:
+        first, last = float(spans.first[0]), float(spans.last[-1])
+        if not found:
+            return run(placed, first, last, self.plan, self.rules)
+        plan, names = self.plan, self.plan.names
+        placed = scale_placed(placed, found, names)
+        stages = run(
+            placed,
+            first,
+            last,
+            plan,
+            self.rules,
+            room=reach(found, plan.poses),
+            added=lambda axis: added_lines(placed, found, plan.poses, axis),
+        )
+        locked = [one for one in found if one.edit.keys and not one.edit.unlocked]
+        free = [one for one in found if one.edit.keys and one.edit.unlocked]
+        line = stages.limited
+        if locked:
+            line = redraw(line, locked, names, stages.axis)
+            _, line = bound(line, stages.axis, plan, self.rules, held=True)
+        return replace(stages, limited=redraw(line, free, names, stages.axis))
 
     def sample(self, solved: Solved, first: float, count: int, rate: float) -> Floats:
         """Return stage 7 at ``first + k / rate``: (T, P) weights in the set's order."""
@@ -143,11 +174,13 @@ class BigramEngine:
         values = sample(stages.limited, stages.axis, self.plan.poses, first, count, rate, spline)
         if self.rules.settings.solve == "together":
             keep_closures(values, solved.spans, stages, self._reach, first, rate)
-        return self._kept_apart(values)[self._output].T
+        return self._kept_apart(values, solved.unlocked)[self._output].T
 
-    def _kept_apart(self, values: Floats) -> Floats:
+    def _kept_apart(self, values: Floats, unlocked: set[str]) -> Floats:
         """Apply the bounds once more to what is exported: softening bends them a little."""
         for a, b, threshold in self.plan.bounds:
+            if unlocked and self.plan.names[b] in unlocked:
+                continue
             if self.rules.settings.bound == "ramp":
                 room = 1 - values[a] / threshold
             else:
@@ -155,7 +188,7 @@ class BigramEngine:
             np.minimum(values[b], np.maximum(room, 0.0), out=values[b])
         return values
 
-    def animate(self, speech: Speech, rate: float = RATE) -> Animation:
+    def animate(self, speech: Speech, rate: float = RATE, edits: Sequence[Edit] = ()) -> Animation:
         """Return the animation of a line.
 
         Parameters
@@ -164,6 +197,8 @@ class BigramEngine:
             Its phones drive the mouth; its sound, if any, says how long to go on.
         rate : float
             Frames per second.
+        edits : sequence of Edit
+            Corrections of this line.
 
         Returns
         -------
@@ -181,7 +216,7 @@ class BigramEngine:
         """
         if not 1 <= rate <= FASTEST:
             raise InputError(f"{rate:g} frames per second", expected=f"1 to {FASTEST:g}")
-        solved = self.solve(speech.phones)
+        solved = self.solve(speech.phones, speech.words, edits)
         start, end = self._range(solved, speech)
         first = math.floor(start * rate + 1e-6)
         count = max(math.ceil(end * rate - 1e-6) - first, 0) + 1
@@ -238,10 +273,14 @@ class BigramEngine:
         return [bigram.pair for bigram in used if bigram.source == STAND_IN]
 
     def _report(self, solved: Solved) -> dict[str, Any]:
-        return {
+        report: dict[str, Any] = {
             "set": self.of.name,
             "preset": self.preset,
             "bigrams": len(solved.spans.pairs),
             "stand_ins": ["-".join(pair) for pair in self.stand_ins(solved)],
             "nearest_classes": solved.reduction.stand_ins,
         }
+        if solved.edits or solved.lost:
+            report["edits"] = [one.edit.name for one in solved.edits]
+            report["edits_lost"] = list(solved.lost)
+        return report

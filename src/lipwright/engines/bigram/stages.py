@@ -8,6 +8,7 @@ placed (red) → stitched (green, blue) → smoothed (yellow) → constrained (c
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -109,7 +110,16 @@ class Stages:
     limited: Line
 
 
-def run(placed: Placed, start: float, end: float, plan: Plan, rules: Rules) -> Stages:
+def run(
+    placed: Placed,
+    start: float,
+    end: float,
+    plan: Plan,
+    rules: Rules,
+    *,
+    room: float = 0.0,
+    added: Callable[[Axis], Iterable[Line]] = lambda axis: (),
+) -> Stages:
     """Take placed keys through all stages.
 
     Parameters
@@ -121,10 +131,18 @@ def run(placed: Placed, start: float, end: float, plan: Plan, rules: Rules) -> S
     plan : Plan
         Of ``rules``.
     rules : Rules
+    room : float
+        Seconds before and after that edits may need.
+    added : function
+        Returns further curves on the axis, stitched in like those of bigrams.
     """
-    margin = plan.margin()
+    margin = plan.margin() + room
     axis = Axis(start - margin, end - start + 2 * margin, len(plan.poses))
     stitched = stitch(placed, axis)
+    for times, values in added(axis):
+        edge = np.array([0.0]), np.array([axis.count * axis.width])
+        line = np.concatenate((edge[0], times, edge[1])), np.concatenate(([0.0], values, [0.0]))
+        stitched = combine(stitched, line)
     smoothed = smooth(stitched, axis, plan, rules)
     constrained, limited = bound(smoothed, axis, plan, rules)
     return Stages(axis, placed, stitched, smoothed, constrained, limited)
@@ -241,13 +259,24 @@ def _lift(line: Line, lefts: Ints, rights: Ints, valleys: str) -> Line | None:
     return insert(drawn, (when, height))
 
 
-def bound(smoothed: Line, axis: Axis, plan: Plan, rules: Rules) -> tuple[Line, Line]:
+def bound(
+    smoothed: Line, axis: Axis, plan: Plan, rules: Rules, *, held: bool = False
+) -> tuple[Line, Line]:
     """Keep poses apart that exclude each other, and slopes below their limits.
 
     Sections 3.2.2 and 3.2.3, Figures 9 and 10. ``together``: in falling priority each pose
     takes the bound that the finished higher ones leave it, then a pose that widens becomes
     the least function above its curve that keeps the limit, held by its softness; any other
     the greatest below. ``in turn``: all bounds, then all limits, as published.
+
+    Parameters
+    ----------
+    smoothed : Line
+    axis : Axis
+    plan : Plan
+    rules : Rules
+    held : bool
+        Whether closures are held already, as when an edited line is solved again.
 
     Returns
     -------
@@ -259,7 +288,7 @@ def bound(smoothed: Line, axis: Axis, plan: Plan, rules: Rules) -> tuple[Line, L
         return constrained, _pruned(steepest_below(constrained, axis, limits, 0), axis)
     finished: list[Line] = []
     bounded: list[Line] = []
-    softens = rules.settings.spline == "soften"
+    softens = rules.settings.spline == "soften" and not held
     for first, middle, last in plan.levels:
         wide = axis.cut(smoothed, first, middle)
         if middle > first:

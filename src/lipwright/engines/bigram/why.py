@@ -8,10 +8,11 @@ maxima whose chord lifted it, the pose that bounded it, the key whose slope limi
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 
+from lipwright.engines.bigram.edits import Found
 from lipwright.engines.bigram.engine import BigramEngine, Solved
 from lipwright.engines.bigram.polyline import Line, maxima
 from lipwright.engines.bigram.stages import Stages
@@ -81,6 +82,8 @@ class Explanation:
         The bigrams there, the one that won first.
     reasons : tuple of Reason
         The stages that changed the value, in order.
+    edits : tuple of str
+        Edits of this line that act on the control in this phone.
     """
 
     control: str
@@ -88,7 +91,8 @@ class Explanation:
     phone: str
     value: float
     origins: tuple[Origin, ...] = ()
-    reasons: tuple[Reason, ...] = field(default=())
+    reasons: tuple[Reason, ...] = ()
+    edits: tuple[str, ...] = ()
 
     def text(self) -> str:
         """Return the explanation as lines for a terminal."""
@@ -100,6 +104,8 @@ class Explanation:
                 f"  {won} {origin.pair} ({origin.source}), {origin.start:.3f} to "
                 f"{origin.end:.3f} s: {origin.value:.3f}, keys {keys}"
             )
+        for edit in self.edits:
+            lines.append(f"  edited: {edit}")
         for reason in self.reasons:
             lines.append(
                 f"  {reason.stage}: {reason.before:.3f} becomes {reason.after:.3f}, {reason.text}"
@@ -134,9 +140,17 @@ def why(engine: BigramEngine, solved: Solved, control: str, time: float) -> Expl
     if solved.stages is None:
         return Explanation(control, time, "sil", value)
     tracer = _Tracer(engine, solved, engine.plan.names.index(control), time)
-    return Explanation(
-        control, time, tracer.phone(), value, tracer.origins(), tuple(tracer.reasons(value))
+    edits = tuple(
+        one.edit.name
+        for one in solved.edits
+        if one.edit.pose == control and abs(time - one.phone.middle) <= _reach_of(one)
     )
+    reasons = tuple(tracer.reasons(value))
+    return Explanation(control, time, tracer.phone(), value, tracer.origins(), reasons, edits)
+
+
+def _reach_of(one: Found) -> float:
+    return 0.5 * one.phone.duration + one.edit.hold
 
 
 class _Tracer:
