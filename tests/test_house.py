@@ -18,11 +18,11 @@ LAYERS = [
     ("sound", "sound_files", "sound_headers", "sound_child", "gltf"),
     ("animation", "speech"),
     ("performance",),
-    ("schedule", "engines", "character", "export"),
+    ("schedule", "engines", "character", "export", "evaluate"),
     ("pipeline",),
     ("cli",),
 ]
-APART = ("schedule", "engines", "character", "export")
+APART = ("schedule", "engines", "character", "export", "evaluate")
 LEVEL = {name: level for level, names in enumerate(LAYERS) for name in names}
 
 

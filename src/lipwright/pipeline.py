@@ -7,19 +7,23 @@ and exporters do not know each other; they meet in this module.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from functools import lru_cache, partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from lipwright.errors import InputError, SoundError
+from lipwright.errors import CharacterError, InputError, SoundError
 from lipwright.performance import Performance
 from lipwright.sound import Sound
 from lipwright.speech import Speech
 
 if TYPE_CHECKING:
+    from lipwright.animation import Animation
+    from lipwright.character.head import Landmarks
+    from lipwright.character.mesh import Part
     from lipwright.engines.bigram import BigramEngine
+    from lipwright.evaluate import MotionReport, Recording
 
 Progress = Callable[[float], None]
 
@@ -129,6 +133,7 @@ def animate(
     preset: str = "default",
     overrides: str | Path | None = None,
     reduction: str | Path | None = None,
+    edits: str | Path | None = None,
     character: str | Path = "head",
     mapping: str | Path | None = None,
     rate: float = 60.0,
@@ -150,6 +155,8 @@ def animate(
     reduction : path, optional
         A file that says what phones become in the set's classes, instead of the one
         that comes with Lipwright.
+    edits : path, optional
+        Corrections of this line, hung on its words and phones.
     character : str or path
         ``"head"``, or a GLB, VRM or glTF file.
     mapping : path, optional
@@ -163,11 +170,12 @@ def animate(
         If a part of it is unknown or broken.
     """
     from lipwright.character import BUILT_IN, load_character
+    from lipwright.engines.bigram import read_edits
 
     if engine != "bigram":
         raise InputError(f"no engine {engine!r}", expected="bigram")
     made = engine_for(bigram_set, preset, overrides, reduction)
-    animation = made.animate(speech, rate)
+    animation = made.animate(speech, rate, read_edits(edits) if edits else ())
     actor = load_character(character, mapping)
     if actor.name not in BUILT_IN:  # a built-in one fits, and is made only when it is shown
         actor.check(animation.controls)
@@ -252,3 +260,57 @@ def save_labels(speech: Speech, *paths: str | Path) -> None:
         encoded.append((path, write_labels(speech, suffix)))
     for path, data in encoded:
         write_output(path, data)
+
+
+def evaluate_motion(
+    pairs: Sequence[tuple[Animation | str | Path, Recording | str | Path]],
+    *,
+    shapes: Sequence[str | Path] | None = None,
+    labels: Sequence[str | Path] | None = None,
+) -> MotionReport:
+    """Hold animations against recorded faces, on the built-in head.
+
+    Parameters
+    ----------
+    pairs : sequence of (animation, recording)
+        Each an object or a file: an animation in the lossless format or a TSV of Rhubarb's,
+        a recording as CSV with ``time``, ``lipGapInner`` and ``lipWidth``.
+    shapes : sequence of path, optional
+        For each recording a CSV with ``time`` and ``mouthPucker``.
+    labels : sequence of path, optional
+        For each animation the phones, where it holds none.
+
+    Raises
+    ------
+    InputError
+        If a file cannot be used, or a recording does not move.
+    CharacterError
+        If an animation has no control that moves the head's mouth.
+    """
+    from lipwright.animation import Animation
+    from lipwright.character.head import measure
+    from lipwright.evaluate import Curve, Pair, compare, is_rhubarb, read_recording, read_rhubarb
+
+    skin, marks = _head_mouth()
+    found = []
+    for number, (made, recorded) in enumerate(pairs):
+        name = f"pair {number + 1}" if isinstance(made, Animation) else str(made)
+        if not isinstance(made, Animation):
+            made = read_rhubarb(made) if is_rhubarb(made) else Animation.load(made)
+        if isinstance(recorded, str | Path):
+            recorded = read_recording(recorded, shapes[number] if shapes else None)
+        if not set(made.controls) & set(skin.morphs):
+            raise CharacterError("no control moves the head's mouth", where=name)
+        phones = from_labels(labels[number]).phones if labels else made.phones
+        mouth = measure([skin], marks, dict(zip(made.controls, made.values.T, strict=True)))
+        opening, breadth = Curve(made.times, mouth.opening), Curve(made.times, mouth.breadth)
+        found.append(Pair(opening, breadth, recorded, phones.normalised(), name))
+    return compare(found)
+
+
+@lru_cache(maxsize=1)
+def _head_mouth() -> tuple[Part, Landmarks]:
+    """Return what is measured of the built-in head: its skin, and where the mouth is."""
+    from lipwright.character.head import build_head, landmarks
+
+    return next(part for part in build_head() if part.name == "skin"), landmarks()
