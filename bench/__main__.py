@@ -3,7 +3,7 @@
 import subprocess
 import sys
 
-MEASURES = ("startup", "speaking", "stages", "models", "aligning")
+MEASURES = ("startup", "speaking", "stages", "models", "aligning", "quality")
 
 if __name__ == "__main__":
     chosen = sys.argv[1:] or MEASURES

@@ -98,7 +98,7 @@ def test_a_read_only_file_stays_also_for_the_superuser(tmp_path: Path) -> None:
     ("name", "words"),
     [
         ("missing/a.json", r"the folder '.*missing' does not exist\. Make it first"),
-        ("file/a.json", r"the folder '.*file' does not exist"),
+        ("file/a.json", r"'.*file' is a file, not a folder"),
         (".", "is a folder; expected a file's name"),
         ("n" * 300 + ".json", "cannot be written"),
         ("a\0b.json", "cannot be written"),
@@ -177,7 +177,7 @@ def test_what_cannot_be_read_says_why(tmp_path: Path, name: str, words: str) -> 
         (b"", r"a\.json, line 1 column 1: broken JSON"),
         (b'{"a": 1,\n "b" 2}', r"a\.json, line 2 column 6: broken JSON \(Expecting ':' delimiter"),
         (b'{"a": 1, "a": 2}', r"a\.json: the key 'a' stands twice\. Remove one of the two"),
-        (b'{"a": NaN}', r"a\.json: the number NaN; expected finite numbers"),
+        (b'{"a": NaN}', r"a\.json, line 1: the number NaN; expected finite numbers"),
         (b"[-Infinity]", r"the number -Infinity"),
         (b"[1e999]", r"the number 1e999; expected finite numbers"),
         (b"[" + b"9" * 5000 + b"]", r"a number that is too long"),

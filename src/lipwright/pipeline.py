@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from dataclasses import replace
 from functools import lru_cache, partial
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -85,7 +86,8 @@ def align(
 
     path = Path(lexicon) if lexicon is not None else None
     with _named(sound):
-        return find(_sound(sound), text, lexicon=path, progress=progress)
+        heard = _sound(sound)
+        return _told(heard, find(heard, text, lexicon=path, progress=progress))
 
 
 def recognise(sound: Sound | str | Path, *, progress: Progress | None = None) -> Speech:
@@ -93,7 +95,8 @@ def recognise(sound: Sound | str | Path, *, progress: Progress | None = None) ->
     from lipwright.schedule.recognise import recognise as listen
 
     with _named(sound):
-        return listen(_sound(sound), progress=progress)
+        heard = _sound(sound)
+        return _told(heard, listen(heard, progress=progress))
 
 
 def from_labels(
@@ -112,6 +115,11 @@ def _sound(sound: Sound | str | Path) -> Sound:
     from lipwright.sound_files import read_sound
 
     return read_sound(sound)
+
+
+def _told(sound: Sound, speech: Speech) -> Speech:
+    """Say of a line what had to be mended in its sound."""
+    return replace(speech, notes=(*sound.notes, *speech.notes))
 
 
 @contextmanager
@@ -250,7 +258,7 @@ def save_labels(speech: Speech, *paths: str | Path) -> None:
     OutputError
         If a file cannot be written.
     """
-    from lipwright.files import STANDARD_STREAM, write_output
+    from lipwright.files import STANDARD_STREAM, write_all
     from lipwright.schedule.labels import write_labels
 
     check_labels(*paths)
@@ -258,8 +266,7 @@ def save_labels(speech: Speech, *paths: str | Path) -> None:
     for path in paths:
         suffix = ".json" if str(path) == STANDARD_STREAM else Path(path).suffix.lower()
         encoded.append((path, write_labels(speech, suffix)))
-    for path, data in encoded:
-        write_output(path, data)
+    write_all(encoded)
 
 
 def evaluate_motion(

@@ -13,6 +13,14 @@ from numpy.typing import NDArray
 
 from lipwright.errors import SoundError
 
+# The RIFF chunk that names the software a sound was made with.
+_MARK = b"LIST\x16\0\0\0INFOISFT\x0a\0\0\0Lipwright\0"
+
+
+def is_own_wav(data: bytes) -> bool:
+    """Whether a WAV file was made by :meth:`Sound.wav_bytes`, and may be made anew."""
+    return data[:4] == b"RIFF" and data.endswith(_MARK)
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Sound:
@@ -63,8 +71,8 @@ class Sound:
 
         Examples
         --------
-        >>> len(Sound(np.zeros(8, np.float32), 16000).wav_bytes())
-        60
+        >>> is_own_wav(Sound(np.zeros(8, np.float32), 16000).wav_bytes())
+        True
         """
         import io
         import wave
@@ -76,4 +84,5 @@ class Sound:
             file.setsampwidth(2)
             file.setframerate(self.rate)
             file.writeframes(np.rint(clipped * 32767.0).astype("<i2").tobytes())
-        return written.getvalue()
+        data = written.getvalue() + _MARK
+        return data[:4] + (len(data) - 8).to_bytes(4, "little") + data[8:]

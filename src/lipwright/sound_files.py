@@ -47,6 +47,9 @@ class _Source:
     notes: list[str] = field(default_factory=list)
 
 
+LOWEST_RATE = 2000
+
+
 def read_sound(path: str | Path, *, highest_rate: int = 48000) -> Sound:
     """Return the sound in a file, as one channel.
 
@@ -77,6 +80,12 @@ def read_sound(path: str | Path, *, highest_rate: int = 48000) -> Sound:
     held = bytearray()  # grows in place: joining blocks at the end would need twice the memory
     with contextlib.ExitStack() as stack:
         source = _source(stack.enter_context(_opened(path, where)), where, stack)
+        if source.rate < LOWEST_RATE:
+            raise SoundError(
+                f"{source.rate} samples per second",
+                where=where,
+                expected=f"{LOWEST_RATE} or more, to hear speech",
+            )
         rate = min(source.rate, highest_rate)
         blocks = _finite(source.blocks, source.rate, where)
         for block in blocks if rate == source.rate else _lowered(blocks, source.rate, rate):
@@ -125,6 +134,8 @@ def _opened(path: str | Path, where: str) -> Iterator[IO[bytes]]:
     """Give a file that can be sought in: what comes through a pipe is kept beside first."""
     with contextlib.ExitStack() as stack:
         piped = str(path) == "-"
+        if piped and sys.stdin is None:
+            raise InputError("is closed", where="standard input", cure="pipe a sound into it")
         file: IO[bytes] = sys.stdin.buffer if piped else stack.enter_context(_open(path, where))
         if piped or not file.seekable():
             pipe, file = file, stack.enter_context(tempfile.SpooledTemporaryFile(_IN_MEMORY))

@@ -16,6 +16,7 @@ import numpy as np
 import pytest
 import soundfile
 
+import lipwright
 from lipwright.animation import Animation
 from lipwright.cli import main
 from lipwright.engines.bigram.set_file import DATA
@@ -23,6 +24,7 @@ from lipwright.speech import Speech
 from tests.conftest import LINE
 
 RATE = 16000
+SOURCE = Path(lipwright.__file__).parents[1]
 SECOND = np.zeros(RATE)
 
 
@@ -254,6 +256,93 @@ def test_wrong_usage_is_status_2(tmp_path: Path, capsys: pytest.CaptureFixture[s
         assert "Error" in fails(capsys, tmp_path, *arguments, status=2)
 
 
+def test_nobodys_sound_is_written_over(
+    line_wav: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    actor = tmp_path / "take.wav"
+    actor.write_bytes(line_wav.read_bytes())
+    message = fails(capsys, tmp_path, "say", "Hi", "-o", tmp_path / "take.json")
+    assert "take.wav" in message
+    assert "not a sound that Lipwright made" in message
+    arguments = ("animate", actor, "--text", LINE, "-o", actor)
+    assert "over its own input" in fails(capsys, tmp_path, *arguments)
+    # What say made itself is made anew without a word.
+    for _ in range(2):
+        assert main(["say", "Hi", "-o", str(tmp_path / "other.json")]) == 0
+
+
+def test_several_outputs_are_all_or_none(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "a.json").write_text("old")
+    sync, count = os.fsync, [0]
+
+    def full_at_the_third(descriptor: int) -> None:
+        count[0] += 1
+        if count[0] == 3:
+            raise OSError(28, os.strerror(28))
+        sync(descriptor)
+
+    monkeypatch.setattr(os, "fsync", full_at_the_third)
+    outputs = [part for name in ("a.json", "b.csv", "c.glb") for part in ("-o", tmp_path / name)]
+    assert "disk is full" in fails(capsys, tmp_path, "say", "Hi", *outputs)
+
+
+def shell(
+    command: str, data: bytes = b"", **environment: str
+) -> subprocess.CompletedProcess[bytes]:
+    line = command.replace("lipwright", f'"{sys.executable}" -m lipwright')
+    where = {**os.environ, **environment}
+    return subprocess.run(line, shell=True, input=data, capture_output=True, env=where)
+
+
+@pytest.mark.parametrize(
+    ("command", "status", "words"),
+    [
+        ("lipwright set show f-ah", 0, b""),
+        ("lipwright set show f-ah >&-", 0, b""),
+        ("lipwright set coverage --json >/dev/full", 1, b"No space left"),
+        ("lipwright --help >/dev/full", 1, b"No space left"),
+        ("lipwright say - -o - <&-", 1, b"standard input"),
+        ("lipwright animate - --text a -o - <&-", 1, b"standard input"),
+        ("cd gone && rmdir ../gone && lipwright say hi -o x.json", 1, b"lipwright: "),
+    ],
+)
+def test_streams_that_fail_are_one_line(
+    command: str, status: int, words: bytes, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "gone").mkdir()
+    monkeypatch.chdir(tmp_path)
+    run = shell(command, PYTHONIOENCODING="cp1252", PYTHONPATH=str(SOURCE))
+    assert run.returncode == status
+    assert words in run.stderr
+    assert run.stderr.count(b"\n") == (1 if status else 0)
+
+
+def test_piped_text_must_be_text(tmp_path: Path) -> None:
+    run = shell(f'lipwright say - -o "{tmp_path / "a.json"}"', b"caf\xe9 hello")
+    assert run.returncode == 1
+    assert b"standard input: byte 3 is not UTF-8" in run.stderr
+
+
+def test_what_was_mended_in_a_sound_is_told(
+    samples: np.ndarray, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    sound = tmp_path / "cut.wav"
+    cut_short(sound, samples)
+    assert main(["animate", str(sound), "--text", LINE, "-o", str(tmp_path / "a.json")]) == 0
+    assert "the file was cut" in capsys.readouterr().err
+
+
+def test_a_silly_sample_rate_is_refused(
+    samples: np.ndarray, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    sound = tmp_path / "slow.wav"
+    soundfile.write(sound, samples, 1)
+    message = fails(capsys, tmp_path, "animate", sound, "--text", "a", "-o", tmp_path / "a.json")
+    assert "1 samples per second" in message
+
+
 # ---- sets and characters ---------------------------------------------------------------------
 
 
@@ -270,6 +359,11 @@ def twice(content: dict[str, Any]) -> None:
     content["bigrams"].append(content["bigrams"][7])
 
 
+def no_curves(content: dict[str, Any]) -> None:
+    content["bigrams"] = []
+    content["phones"] = {}
+
+
 def unknown_pose(content: dict[str, Any]) -> None:
     content["bigrams"][0]["curves"]["smirk"] = [[0, 0], [0.5, 1], [1, 0]]
 
@@ -281,7 +375,7 @@ def future(content: dict[str, Any]) -> None:
 @pytest.mark.parametrize(
     ("change", "words"),
     [
-        (nan_key, "NaN"),
+        (nan_key, "the number NaN"),
         (twice, "twice"),
         (unknown_pose, "unknown pose 'smirk'"),
         (future, "newer Lipwright"),
@@ -300,6 +394,31 @@ def test_sets_that_are_broken(
     message = fails(capsys, tmp_path, "say", "Hi", "--set", path, "-o", tmp_path / "a.json")
     assert words in message
     assert "my set.json" in message
+
+
+def test_a_set_without_curves_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    content = english()
+    no_curves(content)
+    path = tmp_path / "empty.json"
+    path.write_text(json.dumps(content))
+    assert main(["say", "Pa", "--set", str(path), "-o", str(tmp_path / "a.json")]) == 0
+    assert "no curve at all for aa bmp" in capsys.readouterr().err
+
+
+def test_a_copied_set_of_the_same_name_is_not_taken_for_the_other(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    content = english()
+    content["bigrams"] = [b for b in content["bigrams"] if "bmp" not in b["pair"]]
+    path = tmp_path / "copy.json"
+    path.write_text(json.dumps(content))
+    line = tmp_path / "a.json"
+    assert main(["say", "Papa", "--set", str(path), "-o", str(line)]) == 0
+    capsys.readouterr()
+    assert "--set" in fails(capsys, tmp_path, "set", "why", line, "--time", "0.3")
+    assert "outside" in fails(capsys, tmp_path, "set", "why", line, "--time", "nan", "--set", path)
+    assert main(["set", "why", str(line), "--time", "0.3", "--set", str(path)]) == 0
+    assert "stand-in" in capsys.readouterr().out
 
 
 def glb(content: dict[str, Any]) -> bytes:

@@ -146,7 +146,7 @@ def test_sound_has_a_rate_that_browsers_play(seconds: float, rate: int, expected
     page = html.encode(replace(plain, speech=replace(plain.speech, sound=sound)))
     wav = base64.b64decode(blocks(page)["lipwright-sound"])
     assert int.from_bytes(wav[24:28], "little") == expected
-    assert len(wav) == pytest.approx(44 + 2 * seconds * expected, abs=4)
+    assert len(wav) == pytest.approx(74 + 2 * seconds * expected, abs=4)
 
 
 def test_an_animation_without_frames_or_controls_is_still_a_page() -> None:

@@ -29,7 +29,9 @@ ABOUT = (
 )
 PRIORITY = ("open", "W", "wide", "ShCh", "FV", "PBM", *TONGUE)
 FAST = ("PBM", "FV")
-SOFTNESS = {"open": 0.06, "W": 0.06, "wide": 0.06, "ShCh": 0.05, "PBM": 0.012, "FV": 0.012}
+# Lips stay round from one rounded sound to the next; the jaw goes back up between vowels.
+WINDOW = {"W": 0.22, "wide": 0.18, "ShCh": 0.18}
+SOFTNESS = {"open": 0.06, "W": 0.12, "wide": 0.06, "ShCh": 0.05, "PBM": 0.012, "FV": 0.012}
 
 
 def rules() -> Rules:
@@ -40,7 +42,7 @@ def rules() -> Rules:
             priority,
             meets="widen" if name in FAST else "cut",
             limit=25.0 if name in FAST else 15.0,
-            window=0.10 if name in FAST or name in TONGUE else 0.18,
+            window=WINDOW.get(name, 0.10),
             softness=SOFTNESS.get(name, 0.03),
         )
         for priority, name in enumerate(PRIORITY, 1)

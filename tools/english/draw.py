@@ -16,14 +16,21 @@ SEEN = 0.04
 
 #: When a shape begins to form out of silence, and when it has gone after the last sound,
 #: as shares of the pair's time: the tongue moves late and is gone early.
-ONSET = {"open": 0.25, "W": 0.10, "ShCh": 0.15, "wide": 0.20}
-OFFSET = {"open": 0.86, "W": 0.90, "ShCh": 0.88, "wide": 0.92}
+ONSET = {"open": 0.05, "W": 0.05, "ShCh": 0.15, "wide": 0.30}
+OFFSET = {"open": 0.68, "W": 0.70, "ShCh": 0.88, "wide": 0.92}
 #: Share of the sound before in which a shape begins to form, and of the sound after in
 #: which it is still seen, where that sound does not have it.
 LEAD = {"open": 0.60, "W": 0.85, "ShCh": 0.70, "wide": 0.60}
-LINGER = {"open": 0.50, "W": 0.55, "ShCh": 0.50, "wide": 0.50}
-#: The same of the jaw beside a closure.
-CLOSED = 0.10
+#: Rounding stays longest, unless the lips must spread.
+LINGER = {"open": 0.50, "W": 0.90, "ShCh": 0.50, "wide": 0.50}
+SPREAD = 0.2
+#: The same of the jaw beside a closure: it is free to move, but lips that must meet keep
+#: it nearly shut.
+CLOSED = 0.30
+#: How much later than the jaw a pose reaches a target, as a share of the sound: lips
+#: come forward more slowly than the jaw drops.
+LATER = {"W": 0.28}
+LATEST = 0.94
 
 
 def curves(first: str, second: str) -> dict[str, Points]:
@@ -77,7 +84,9 @@ def _shaded(
 def _shape(before: Sound, after: Sound, leaving: float, coming: float, pose: str) -> Points:
     leaving = leaving if leaving >= SEEN else 0.0
     coming = coming if coming >= SEEN else 0.0
-    leave_at, come_at = 0.5 * before.at[1], 0.5 + 0.5 * after.at[0]
+    later = LATER.get(pose, 0.0)
+    leave_at = 0.5 * min(before.at[1] + later, LATEST)
+    come_at = 0.5 + 0.5 * min(after.at[0] + later, LATEST)
     if before.kind == "silence" and coming:
         return [(_onset(pose), 0.0), (come_at, coming), (1.0, 0.0)]
     if after.kind == "silence" and leaving:
@@ -109,6 +118,8 @@ def _lead(before: Sound, pose: str) -> float:
 def _linger(after: Sound, pose: str) -> float:
     if after.kind == "closure" and pose == "open":
         return CLOSED
+    if pose == "W" and after.first.get("wide", 0.0) > SPREAD:
+        return LINGER["wide"]
     return LINGER.get(pose, 0.35)
 
 

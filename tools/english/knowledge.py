@@ -17,6 +17,12 @@ from dataclasses import dataclass, field
 
 Levels = dict[str, float]
 
+# When a target is reached and left, as shares of the sound's time. The mouth of a vowel is
+# widest a little after its middle: the jaw follows the voice. A consonant holds its shape.
+VOWEL_AT = (0.54, 0.66)
+DIPHTHONG_AT = (0.37, 0.78)
+CONSONANT_AT = (0.42, 0.72)
+
 
 @dataclass(frozen=True)
 class Sound:
@@ -42,7 +48,7 @@ class Sound:
     kind: str
     first: Levels
     second: Levels | None = None
-    at: tuple[float, float] = (0.42, 0.58)
+    at: tuple[float, float] = VOWEL_AT
     lets_through: Levels = field(default_factory=dict)
     keeps: Levels = field(default_factory=dict)
 
@@ -52,12 +58,12 @@ class Sound:
         return self.first if self.second is None else self.second
 
 
-def vowel(at: tuple[float, float] = (0.42, 0.58), **levels: float) -> Sound:
+def vowel(at: tuple[float, float] = VOWEL_AT, **levels: float) -> Sound:
     """Return a vowel that holds one shape."""
     return Sound("vowel", levels, at=at)
 
 
-def diphthong(first: Levels, second: Levels, at: tuple[float, float] = (0.33, 0.74)) -> Sound:
+def diphthong(first: Levels, second: Levels, at: tuple[float, float] = DIPHTHONG_AT) -> Sound:
     """Return a vowel that moves from one shape to another."""
     return Sound("vowel", first, second, at)
 
@@ -66,47 +72,51 @@ def consonant(jaw: float, rounding: float, spreading: float, **levels: float) ->
     """Return a consonant whose lips and jaw follow its neighbours by these shares."""
     ahead = {"open": jaw, "W": rounding, "wide": spreading}
     behind = {"open": 0.8 * jaw, "W": 0.55 * rounding, "wide": 0.8 * spreading}
-    return Sound("consonant", levels, lets_through=ahead, keeps=behind)
+    return Sound("consonant", levels, at=CONSONANT_AT, lets_through=ahead, keeps=behind)
 
 
 SOUNDS: dict[str, Sound] = {
-    # Vowels. 'open' falls with vowel height; 'W' is rounding, 'wide' is spreading.
-    "ah": vowel(open=0.46, wide=0.18),
-    "aa": vowel(open=0.66, wide=0.06),
-    "ao": vowel(open=0.50, W=0.40),
-    "eh": vowel(open=0.50, wide=0.36),
-    "er": vowel(open=0.26, W=0.16, ShCh=0.34, tBack=0.25),
-    "ih": vowel(open=0.32, wide=0.55),
-    "w": vowel(open=0.12, W=0.88, tBack=0.30),
-    # Diphthongs: from … to …
-    "ow": diphthong({"open": 0.46, "W": 0.42}, {"open": 0.20, "W": 0.80}),
-    "aw": diphthong({"open": 0.66, "wide": 0.12}, {"open": 0.26, "W": 0.66}),
-    "oy": diphthong({"open": 0.42, "W": 0.68}, {"open": 0.30, "wide": 0.42}),
-    "ay": diphthong({"open": 0.68, "wide": 0.04}, {"open": 0.36, "wide": 0.46}),
+    # Vowels. 'open' falls with vowel height; 'W' is rounding, 'wide' is spreading. The class
+    # 'ah' holds the open vowel of "cat" and every schwa: it opens less than 'eh'.
+    "ah": vowel(open=0.38, W=0.06, wide=0.04),
+    "aa": vowel(open=0.64, wide=0.04),
+    "ao": vowel(open=0.38, W=0.56),
+    "eh": vowel(open=0.57, wide=0.22),
+    "er": vowel(open=0.26, W=0.18, ShCh=0.32, tBack=0.25),
+    "ih": vowel(open=0.32, wide=0.28),
+    "w": vowel(open=0.07, W=0.92, tBack=0.30),
+    # Diphthongs: from … to … In running speech 'ay' does not reach its /ih/.
+    "ow": diphthong({"open": 0.38, "W": 0.44}, {"open": 0.18, "W": 0.80}),
+    "aw": diphthong({"open": 0.58, "wide": 0.22}, {"open": 0.20, "W": 0.50}),
+    "oy": diphthong({"open": 0.38, "W": 0.64}, {"open": 0.34, "wide": 0.28}),
+    "ay": diphthong({"open": 0.58, "W": 0.08}, {"open": 0.50, "wide": 0.14}),
     # Consonants: jaw, rounding and spreading that they let through, then their own shape.
     # In s and z the teeth meet and the lips part; behind d, l and k the jaw stays loose.
-    "h": consonant(0.70, 0.80, 0.80, open=0.08),
-    "r": consonant(0.30, 0.60, 0.20, open=0.14, W=0.32, ShCh=0.26, tBack=0.20),
-    "l": consonant(0.45, 0.45, 0.45, open=0.24, wide=0.06, tRoof=0.80),
-    "z": consonant(0.15, 0.40, 0.40, open=0.16, wide=0.44, tRoof=0.35),
-    "sh": consonant(0.15, 0.50, 0.10, open=0.12, W=0.20, ShCh=0.82, tRoof=0.30),
-    "th": consonant(0.20, 0.35, 0.40, open=0.16, wide=0.06, tTeeth=0.85),
-    "d": consonant(0.30, 0.50, 0.50, open=0.22, wide=0.18, tRoof=0.82),
-    "kg": consonant(0.45, 0.55, 0.55, open=0.28, wide=0.14, tBack=0.78),
-    # Closures: what must be seen. The jaw may ride along, the lips may not.
+    # A mouth at rest is broader than one that speaks: where lips are free they are still
+    # drawn in a little (W about 0.1).
+    "h": consonant(0.70, 0.80, 0.80, open=0.10),
+    "r": consonant(0.30, 0.60, 0.20, open=0.06, W=0.52, ShCh=0.12, tBack=0.20),
+    "l": consonant(0.45, 0.45, 0.45, open=0.36, W=0.10, tRoof=0.80),
+    "z": consonant(0.15, 0.40, 0.40, open=0.27, wide=0.26, tRoof=0.35),
+    "sh": consonant(0.15, 0.50, 0.10, open=0.17, W=0.20, ShCh=0.80, tRoof=0.30),
+    "th": consonant(0.20, 0.35, 0.40, open=0.09, W=0.14, tTeeth=0.85),
+    "d": consonant(0.30, 0.50, 0.50, open=0.10, W=0.11, tRoof=0.82),
+    "kg": consonant(0.45, 0.55, 0.55, open=0.18, W=0.06, tBack=0.78),
+    # Closures: what must be seen. The jaw may ride along, the lips may not; pressed lips
+    # draw the corners in.
     "f": Sound(
         "closure",
-        {"FV": 1.0, "open": 0.05},
+        {"FV": 1.0, "open": 0.05, "W": 0.05},
         at=(0.30, 0.56),
         lets_through={"W": 0.30, "wide": 0.25},
         keeps={"W": 0.15, "wide": 0.20},
     ),
     "bmp": Sound(
         "closure",
-        {"PBM": 1.0},
+        {"PBM": 1.0, "W": 0.20},
         at=(0.30, 0.56),
         lets_through={"W": 0.45, "wide": 0.30},
-        keeps={"W": 0.25, "wide": 0.25},
+        keeps={"W": 0.35, "wide": 0.25},
     ),
     "sil": Sound("silence", {}),
 }

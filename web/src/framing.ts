@@ -36,24 +36,27 @@ export function framing(model: Object3D, meshes: Mesh[], used: string[]): Framin
   // The lips are in front of most of what they take along.
   moved.mean.z += moved.deviation.z;
   const mouth = { centre: moved.mean, halfWidth: 1.75 * half, halfHeight: 1.75 * half };
-  const head = headOf(model, meshes, used, box);
+  const head = headOf(model, meshes, used, moved.mean.y - 1.8 * half);
   // Of a figure's height the head is a small part; of a face alone the chin may not move.
   const top = size.y > 30 * half ? moved.mean.y + 9 * half : head.max.y;
   head.max.y = Math.min(head.max.y, top);
   return { head: frameOf(head.max.y - head.min.y > 4 * half ? head : box), mouth };
 }
 
-/** What of a model lies above its chin, which is the lowest that moves much with the mouth. */
-function headOf(model: Object3D, meshes: Mesh[], used: string[], box: Box3): Box3 {
+/** What of a model lies above its chin: the lowest that moves much with the mouth, or `below`. */
+function headOf(model: Object3D, meshes: Mesh[], used: string[], below: number): Box3 {
   const moves = meshes.map((mesh) => displacement(mesh, used));
   const most = moves.reduce((high, weights) => weights.reduce((a, b) => Math.max(a, b), high), 0);
   const place = new Vector3();
-  let chin = box.max.y;
+  let chin = below;
   meshes.forEach((mesh, number) => {
     const rest = mesh.geometry.getAttribute("position");
     moves[number].forEach((weight, index) => {
       if (weight < MUCH * most) return;
-      chin = Math.min(chin, place.fromBufferAttribute(rest, index).applyMatrix4(mesh.matrixWorld).y);
+      chin = Math.min(
+        chin,
+        place.fromBufferAttribute(rest, index).applyMatrix4(mesh.matrixWorld).y,
+      );
     });
   });
   const head = new Box3();

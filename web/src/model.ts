@@ -1,7 +1,10 @@
 /** The model out of its GLB, with its morph targets found by name. */
 
-import { Mesh, Vector3, type Object3D } from "three";
+import { Mesh, Vector3, type Material, type Object3D } from "three";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
+
+/** Vertices that may be added to spare a program. */
+const SPARE = 100_000;
 
 export class Model {
   readonly root: Object3D;
@@ -13,10 +16,16 @@ export class Model {
     root.traverse((object) => {
       if (!(object instanceof Mesh)) return;
       object.frustumCulled = false;
+      for (const material of [object.material].flat() as Material[]) {
+        // What is seen edge-on, as the sides of a mouth from inside, must not show through the skin.
+        material.polygonOffset = true;
+        material.polygonOffsetFactor = 1;
+      }
       if (!object.morphTargetDictionary || !object.morphTargetInfluences) return;
       this.meshes.push(object);
       for (const name of Object.keys(object.morphTargetDictionary)) this.#names.add(name);
     });
+    level(this.meshes);
   }
 
   get names(): string[] {
@@ -61,6 +70,19 @@ export class Model {
       result[object.name || object.uuid] = list;
     });
     return result;
+  }
+}
+
+/** Give meshes as many targets as the richest has: each number needs shaders of its own. */
+function level(meshes: Mesh[]): void {
+  const most = Math.max(0, ...meshes.map((mesh) => mesh.morphTargetInfluences?.length ?? 0));
+  for (const { geometry, morphTargetInfluences } of meshes) {
+    const vertices = geometry.getAttribute("position").count;
+    const missing = most - (morphTargetInfluences?.length ?? most);
+    if (missing * vertices > SPARE) continue;
+    for (const targets of Object.values(geometry.morphAttributes))
+      for (let number = 0; number < missing; number++) targets?.push(targets[0]);
+    for (let number = 0; number < missing; number++) morphTargetInfluences?.push(0);
   }
 }
 

@@ -160,12 +160,14 @@ export class Stage {
   }
 
   #light(): void {
-    this.#scene.add(new HemisphereLight(0xe3e9f2, 0x7a6458, 0.95));
-    this.#lamp(0xf6f6ff, 0.6, [-1, -0.05, 1.2]);
+    this.#scene.add(new HemisphereLight(0xe3e9f2, 0xa08676, 1));
+    this.#lamp(0xf6f1f4, 0.65, [-0.7, -0.4, 1.3]);
     const key = this.#lamp(0xfff0e0, 1.9, [0.8, 0.9, 1.4]);
     const rim = this.#lamp(0xdbe7ff, 1.3, [-1.3, 0.3, -1]);
-    this.#castShadow(key, 2048);
+    this.#castShadow(key, 1024);
     this.#castShadow(rim, 1024);
+    // Light that the skin throws back reaches what lies in the shadow of the first.
+    key.shadow.intensity = 0.75;
   }
 
   #castShadow(lamp: DirectionalLight, size: number): void {

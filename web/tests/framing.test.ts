@@ -43,6 +43,14 @@ test("a head is framed as a whole, of a figure only the head", () => {
   assert.ok(framed.halfHeight < 0.3);
 });
 
+test("a head fills most of its frame, from the chin up", () => {
+  const { root, mesh } = figure(0.3, 0.1);
+  const { head } = framing(root, [mesh], ["PBM"]);
+  const filled = (0.3 - (head.centre.y - head.halfHeight)) / (2 * head.halfHeight);
+  assert.ok(filled > 0.85 && filled < 0.95, `${filled} up to the crown`);
+  assert.ok(head.centre.y - head.halfHeight > 0.04, "the shoulders are left out");
+});
+
 test("a model whose targets do not move is framed as a whole", () => {
   const { root, mesh } = figure(0.3, 0.1);
   const { head, mouth } = framing(root, [mesh], []);

@@ -6,8 +6,11 @@
 
 from __future__ import annotations
 
+import errno
+import io
 import os
 import sys
+from contextlib import suppress
 from importlib import import_module
 
 import click
@@ -71,31 +74,45 @@ def main(arguments: list[str] | None = None) -> int:
         sys.stdout.flush()
     except click.exceptions.Exit as leave:
         return leave.exit_code
-    except click.Abort:
-        return _interrupted()
-    except KeyboardInterrupt:
-        return _interrupted()
+    except (click.Abort, KeyboardInterrupt):
+        print("lipwright: interrupted; nothing was left half-written", file=sys.stderr)
+        return 130
     except click.ClickException as wrong:
         wrong.show()
         return wrong.exit_code
     except LipwrightError as error:
         print(f"lipwright: {error}", file=sys.stderr)
         return 1
-    except BrokenPipeError:
-        # Whoever read our output has enough; Python must not complain at exit.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return 0
+    except OSError as error:
+        return _stream_failed(error)
     return result if isinstance(result, int) else 0
 
 
-def _interrupted() -> int:
-    print("lipwright: interrupted; nothing was left half-written", file=sys.stderr)
-    return 130
+def _stream_failed(error: OSError) -> int:
+    """Answer for standard output that takes no more, or a working folder that is gone."""
+    if error.errno in (errno.EPIPE, errno.ENOSPC):
+        # Python must not try again when it ends.
+        with suppress(OSError, AttributeError, ValueError):
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    if error.errno == errno.EPIPE:  # whoever read our output has enough
+        return 0
+    print(f"lipwright: {error.filename or 'standard output'}: {error.strerror}", file=sys.stderr)
+    return 1
 
 
-def run() -> None:
-    """Entry point of the console script."""
+def run_and_leave() -> None:
+    """Run the command line as a program: streams made safe, then :func:`main`."""
     # The matrices here are small: threads would only wait for each other, on a busy
     # machine for longer than the work takes. It must be said before numpy is imported.
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
-    sys.exit(main())
+    for name in ("stdout", "stderr"):
+        stream = getattr(sys, name)
+        if stream is None:  # closed by whoever started us
+            setattr(sys, name, open(os.devnull, "w", encoding="utf-8"))  # noqa: SIM115, PTH123
+        elif isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="backslashreplace")
+    try:
+        status = main()
+    except SystemExit as leave:  # click leaves by itself when its output is not read
+        status = leave.code if isinstance(leave.code, int) else 1
+    sys.exit(status)

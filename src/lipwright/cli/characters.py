@@ -37,7 +37,7 @@ def inspect(model: str, mapping: Path | None, write: Path | None, as_json: bool)
     if write is not None:
         loaded.write_mapping(write)
     if as_json:
-        click.echo(json.dumps(inspect_character(loaded), ensure_ascii=False, indent=1))
+        click.echo(json.dumps(inspect_character(loaded), indent=1))
     else:
         click.echo(describe_character(loaded))
         if write is not None:

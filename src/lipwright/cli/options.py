@@ -102,6 +102,11 @@ class Recording:
     phone_set: str | None
     lexicon: Path | None
 
+    @property
+    def files(self) -> tuple[object, ...]:
+        """What is read from disk."""
+        return (self.sound, self.text_file, self.labels, self.phone_set, self.lexicon)
+
 
 def recording(command: Command) -> Command:
     """SOUND and what goes with it, given to the command as one :class:`Recording`."""

@@ -28,7 +28,7 @@ def tell(performance: Performance, written: Sequence[str], *, as_json: bool) -> 
     # Standard output may be the animation itself: then people read standard error.
     stream = sys.stderr if STANDARD_STREAM in written else sys.stdout
     if as_json:
-        print(json.dumps(_facts(performance, written), ensure_ascii=False), file=stream)
+        print(json.dumps(_facts(performance, written)), file=stream)
         return
     animation = performance.animation
     frames = f"{len(animation)} frames at {animation.rate:g} per second"
@@ -40,6 +40,9 @@ def tell(performance: Performance, written: Sequence[str], *, as_json: bool) -> 
     stand_ins = animation.report.get("stand_ins", [])
     if stand_ins:
         note(f"the set lacks {', '.join(stand_ins)}: made from single phones")
+    bare = animation.report.get("without_curves", [])
+    if bare:
+        note(f"the set has no curve at all for {' '.join(bare)}: the mouth rests there")
     lost = animation.report.get("edits_lost", [])
     if lost:
         note(f"edits that find no phone in this line: {', '.join(lost)}")
@@ -63,7 +66,7 @@ def tell_labels(speech: Speech, written: Sequence[str], *, as_json: bool) -> Non
             "confidence": speech.confidence,
             "notes": list(speech.notes),
         }
-        print(json.dumps(facts, ensure_ascii=False), file=stream)
+        print(json.dumps(facts), file=stream)
         return
     print(_sentence(speech), file=stream)
     for path in files:

@@ -111,12 +111,13 @@ def show(pair: str, name: str, as_json: bool) -> None:
     """Draw the curves of a PAIR, such as f-ah, over its 0..1."""
     from lipwright.engines.bigram.set_file import load_set
     from lipwright.engines.bigram.stand_in import stand_in
-    from lipwright.phones import load_phone_set
+    from lipwright.phones import SILENCE, load_phone_set
 
     of = load_set(name)
-    labels = tuple(pair.split("-"))
+    labels = tuple(pair.lower().split("-"))
     known = load_phone_set(of.phone_set).labels
-    if len(labels) != 2 or any(label not in known for label in labels):
+    silent = labels == (SILENCE, SILENCE)
+    if len(labels) != 2 or silent or any(label not in known for label in labels):
         raise InputError(
             f"{pair!r} is no pair of {name!r}",
             expected=f"two of {' '.join(known)}, such as f-ah",
@@ -184,8 +185,15 @@ def why(
     preset = str(animation.report.get("preset", "default"))
     chosen = name or _set_of(animation.report, line)
     engine = engine_for(chosen, preset, overrides, reduction)
+    _check_digest(engine.of.digest, animation.report, line, told=name is not None)
     solved = engine.solve(animation.phones, animation.words, read_edits(edits) if edits else ())
     instants = animation.times
+    if not instants[0] - 1 / animation.rate <= time <= instants[-1] + 1 / animation.rate:
+        raise InputError(
+            f"{time:g} s is outside of it",
+            where=str(line),
+            expected=f"{instants[0]:.3f} to {instants[-1]:.3f} s",
+        )
     frame = int(abs(instants - time).argmin())
     names = [control] if control else list(animation.controls)
     found = [explain(engine, solved, one, float(instants[frame])) for one in names]
@@ -204,6 +212,18 @@ def _set_of(report: dict[str, object], line: Path) -> str:
             f"made with the set {name!r}", where=str(line), cure="name its file with --set"
         )
     return name
+
+
+def _check_digest(digest: str, report: dict[str, object], line: Path, *, told: bool) -> None:
+    """Refuse to explain a line with another set than the one it was made with."""
+    made_with = report.get("set_digest")
+    if not made_with or made_with == digest:
+        return
+    found = f"made with other files of the set {report.get('set')!r}"
+    cure = "name the set, and its overrides if it has any, with --set and --overrides"
+    if not told:
+        raise InputError(found, where=str(line), cure=cure)
+    note(f"{line} was {found}")
 
 
 def _warn_of_changes(found: list[Explanation], animation: Animation, frame: int) -> None:

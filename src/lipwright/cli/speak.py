@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import sys
+import os
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
@@ -14,8 +14,9 @@ import click
 from lipwright.cli import options
 from lipwright.cli.options import Recording
 from lipwright.cli.progress import progress
-from lipwright.errors import LipwrightError
-from lipwright.files import STANDARD_STREAM
+from lipwright.errors import InputError, LipwrightError
+from lipwright.files import STANDARD_STREAM, decode_text, read_bytes, read_standard_input
+from lipwright.sound import is_own_wav
 from lipwright.speech import Speech
 
 
@@ -64,9 +65,9 @@ def say(
     from lipwright import pipeline
 
     files = _with_sound(outputs)
-    _check(files)
+    _check(files, how)
     if text == STANDARD_STREAM:
-        text = sys.stdin.read()
+        text = decode_text(read_standard_input(), "standard input")
     of = [how[name] for name in ("bigram_set", "preset", "overrides", "reduction")]
     with _meanwhile(pipeline.engine_for, *of):
         speech = pipeline.say(text, voice=voice, rate=speed, pitch=pitch)
@@ -88,11 +89,19 @@ def _meanwhile(work: Callable[..., object], *arguments: object) -> Iterator[None
 
 
 def _with_sound(outputs: tuple[str, ...]) -> tuple[str, ...]:
+    """Add the sound beside the first output, unless someone else's sound lies there."""
     suffixes = {Path(path).suffix.lower() for path in outputs}
     silent = [p for p in outputs if Path(p).suffix.lower() in (".json", ".csv", ".glb")]
     if not silent or ".wav" in suffixes:
         return outputs
-    return (*outputs, str(Path(silent[0]).with_suffix(".wav")))
+    sound = Path(silent[0]).with_suffix(".wav")
+    if sound.exists() and not is_own_wav(read_bytes(sound)):
+        raise InputError(
+            "exists, and is not a sound that Lipwright made",
+            where=str(sound),
+            cure="name another file for the sound with -o, or move this one",
+        )
+    return (*outputs, str(sound))
 
 
 @click.command()
@@ -111,7 +120,7 @@ def animate(
     With --text its words are put in time; with --labels phone times are taken as they are;
     with neither the words are recognised (English).
     """
-    _check(outputs)
+    _check(outputs, how, *recording.files)
     speech = _speech(recording)
     _animate(speech, outputs, as_json, how)
 
@@ -130,6 +139,7 @@ def phones(
     from lipwright.cli.report import tell_labels
 
     pipeline.check_labels(*outputs)
+    _keep_inputs(outputs, recording.files)
     speech = _speech(recording)
     pipeline.save_labels(speech, *outputs)
     tell_labels(speech, outputs, as_json=as_json)
@@ -154,21 +164,23 @@ def _speech(given: Recording) -> Speech:
 
 def read_text(path: Path) -> str:
     """Return the text in a file."""
-    from lipwright.errors import TextError
-    from lipwright.files import read_bytes
-
-    try:
-        return read_bytes(path).decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        raise TextError(
-            f"byte {error.start} is not UTF-8 text", where=str(path), expected="a text in UTF-8"
-        ) from None
+    return decode_text(read_bytes(path), str(path))
 
 
-def _check(outputs: tuple[str, ...]) -> None:
+def _check(outputs: tuple[str, ...], how: dict[str, Any], *inputs: object) -> None:
     from lipwright.export import check_outputs
 
     check_outputs(outputs)
+    names = ("bigram_set", "overrides", "reduction", "edits", "character", "mapping")
+    _keep_inputs(outputs, (*inputs, *(how[name] for name in names)))
+
+
+def _keep_inputs(outputs: tuple[str, ...], inputs: Iterable[object]) -> None:
+    """Refuse to write over what the command reads."""
+    read = {os.path.realpath(str(path)) for path in inputs if path and Path(str(path)).is_file()}
+    for path in outputs:
+        if path != STANDARD_STREAM and os.path.realpath(path) in read:
+            raise InputError("would be written over its own input", where=path, cure="rename one")
 
 
 def _animate(speech: Speech, outputs: tuple[str, ...], as_json: bool, how: dict[str, Any]) -> None:

@@ -21,6 +21,9 @@ SHARES = {"p b m": 0.15, "f v": 0.35}
 """Closed: at most this share of a mouth's range is open."""
 AROUND = 0.06
 """Seconds beside a phone in which its closure is looked for."""
+DEPTH = 0.10
+"""A closure lasts while the mouth is open by no more than this share of its range beyond
+the least that it comes to."""
 FARTHEST = 0.3
 """Seconds beyond a phone at which its closure is taken to have ended."""
 
@@ -86,10 +89,8 @@ def closures(mouths: Sequence[Mouths], kind: str) -> Closures:
                 index == len(phones) - 1 or phones[index + 1].label == SILENCE,
             )
             ours, theirs = (
-                _closed(curve, low + SHARES[kind] * (high - low), phone.start, phone.end)
-                for curve, (low, high) in zip(
-                    (one.animation, one.recording), one.ranges, strict=True
-                )
+                _closed(curve, limits, SHARES[kind], phone.start, phone.end)
+                for curve, limits in zip((one.animation, one.recording), one.ranges, strict=True)
             )
             if theirs is None:
                 continue
@@ -99,15 +100,19 @@ def closures(mouths: Sequence[Mouths], kind: str) -> Closures:
     return _summary(count, met, 1e3 * np.array(apart))
 
 
-def _closed(curve: Curve, threshold: float, start: float, end: float) -> tuple[float, float] | None:
+def _closed(
+    curve: Curve, limits: tuple[float, float], share: float, start: float, end: float
+) -> tuple[float, float] | None:
     """Return when the mouth is closed around a phone, or None."""
     near = (curve.times >= start - AROUND) & (curve.times <= end + AROUND)
     if not near.any():
         return None
     inside = np.flatnonzero(near)
     least = int(inside[curve.values[inside].argmin()])
-    if curve.values[least] > threshold:
+    low, high = limits
+    if curve.values[least] > low + share * (high - low):
         return None
+    threshold = max(low, curve.values[least]) + DEPTH * (high - low)
     open_ = np.flatnonzero(curve.values > threshold)
     after = int(np.searchsorted(open_, least))
     first = _edge(curve, int(open_[after - 1]), 1, threshold) if after else -np.inf

@@ -13,7 +13,7 @@ from importlib import import_module
 from pathlib import Path
 
 from lipwright.errors import InputError
-from lipwright.files import STANDARD_STREAM, check_target, write_output
+from lipwright.files import STANDARD_STREAM, check_target, write_all
 from lipwright.performance import Performance
 
 FORMATS = {
@@ -98,8 +98,7 @@ def save(performance: Performance, *paths: str | Path) -> None:
     """
     check_outputs(paths)
     encoded = {suffix: encode(performance, suffix) for suffix in dict.fromkeys(map(_suffix, paths))}
-    for path in paths:
-        write_output(path, encoded[_suffix(path)])
+    write_all((path, encoded[_suffix(path)]) for path in paths)
 
 
 def _suffix(path: str | Path) -> str:

@@ -52,8 +52,8 @@ def test_an_edit_follows_its_phone_when_the_line_is_spoken_anew() -> None:
 
 
 def test_a_level_is_reached_even_where_nothing_was_drawn() -> None:
-    assert at(edited(), "W", 0.2) < 0.05
-    assert at(edited(Edit("map", 2, "W", level=0.8)), "W", 0.2) > 0.6
+    assert at(edited(), "ShCh", 0.2) < 0.05
+    assert at(edited(Edit("map", 2, "ShCh", level=0.8)), "ShCh", 0.2) > 0.6
 
 
 def test_a_hold_keeps_lips_closed_for_longer() -> None:

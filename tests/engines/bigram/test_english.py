@@ -77,7 +77,7 @@ def test_rounding_is_anticipated_across_a_consonant() -> None:
         return float(keys.at([0.25])[0]) if keys is not None else 0.0
 
     assert rounding("w") > 0.2  # the lips are round in the /t/ of "two" …
-    assert rounding("ih") == 0  # … and not in that of "tea"
+    assert rounding("ih") < 0.1  # … and hardly drawn in, as those of any /t/, in "tea"
 
 
 @pytest.mark.parametrize("rate", [24.0, 30.0, 60.0])

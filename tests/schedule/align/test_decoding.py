@@ -10,7 +10,7 @@ from lipwright.schedule.align.heard import NO_TOKEN, Heard
 from lipwright.schedule.align.lexicon import Spoken
 from lipwright.schedule.align.model import AcousticModel, load_model
 from lipwright.schedule.align.network import PAUSE, build_network, columns, shortest
-from lipwright.schedule.align.refine import refine
+from lipwright.schedule.align.refine import closures, refine
 from lipwright.schedule.align.viterbi import best_path
 
 CAT = ("k", "ae", "t")
@@ -123,9 +123,9 @@ def test_a_short_pause_before_a_stop_is_its_closure() -> None:
     heard = phones(
         ("sil", 0, 0.3), ("ah", 0.3, 0.5), ("sil", 0.5, 0.56), ("p", 0.56, 0.6), ("ah", 0.6, 0.8)
     )
-    refined = refine(heard, burst(0.3, 0.8, 1.0))
-    assert [phone.label for phone in refined] == ["sil", "ah", "p", "ah"]
-    assert refined[2].start == 0.5
+    closed = closures(heard, burst(0.3, 0.8, 1.0))
+    assert [phone.label for phone in closed] == ["sil", "ah", "p", "ah"]
+    assert closed[2].start == 0.5
 
 
 def test_refined_phones_stay_in_order_however_short() -> None:

@@ -28,9 +28,9 @@ Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
 
 SKIN = Material("skin", (0.68, 0.41, 0.30, 1.0), 0.55)
-TOOTH = Material("teeth", (0.80, 0.75, 0.66, 1.0), 0.25)
+TOOTH = Material("teeth", (0.93, 0.89, 0.80, 1.0), 0.25)
 GUM = Material("gums", (0.42, 0.12, 0.11, 1.0), 0.35)
-TONGUE = Material("tongue", (0.46, 0.14, 0.13, 1.0), 0.4)
+TONGUE = Material("tongue", (0.60, 0.20, 0.18, 1.0), 0.4)
 HAIR = Material("hair", (0.13, 0.070, 0.038, 1.0), 0.6)
 CLOTH = Material("cloth", (0.06, 0.11, 0.16, 1.0), 0.85, double_sided=True)
 EYE = Material("eyes", (1.0, 1.0, 1.0, 1.0), 0.12)
@@ -102,17 +102,18 @@ def _outside() -> list[_Surface]:
 
 def _inside() -> list[_Surface]:
     surfaces = []
-    for name, row, goes in (("upper", UPPER, None), ("lower", LOWER, 1.0)):
+    rows = (("upper", UPPER, None, 0.045, 0.082), ("lower", LOWER, 1.0, 0.060, 0.086))
+    for name, row, goes, back, ahead in rows:
         for kind, make, material in (("teeth", teeth, TOOTH), ("gums", gums, GUM)):
             points, triangles = make(row)
             anatomy = None if goes is None else rigid(points, goes)
-            colors = shade(points, 0.045, 0.085)
+            colors = shade(points, back, ahead)
             surfaces.append(
                 _Surface(f"{kind}_{name}", points, triangles, material, anatomy, colors)
             )
     points, triangles, share = tongue()
     anatomy = rigid(points, 0.92, tongue=share)
-    colors = shade(points, 0.040, 0.078)
+    colors = shade(points, 0.036, 0.072)
     surfaces.append(_Surface("tongue", points, triangles, TONGUE, anatomy, colors))
     return surfaces
 

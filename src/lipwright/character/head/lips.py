@@ -51,7 +51,7 @@ def contact(turn: Floats) -> Floats:
     # The upper lip's middle hangs a little; the line rises beside it and falls to the corner.
     y = -0.0678 - 0.0007 * np.exp(-((share / 0.22) ** 2)) - 0.0004 * share**4
     skin = face_at(np.stack([x, y], axis=1))
-    skin[:, 2] += 0.0016 - 0.0032 * share**3
+    skin[:, 2] += 0.0016 + 0.0012 * share**2 - 0.0036 * share**5
     return skin
 
 

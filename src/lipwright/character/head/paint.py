@@ -42,7 +42,7 @@ def paint_skin(skin: Skin) -> Floats:
     for across, height, radius, strength in _BLUSH:
         share = strength * ahead * np.exp(-((x - across) ** 2 + (y - height) ** 2) / radius**2)
         colors *= 1.0 - share[:, None] * np.array([0.15, 1.0, 0.85])
-    nostril = np.exp(-(((x - 6.6) / 2.4) ** 2) - ((y + 44.6) / 1.5) ** 2) * ahead
+    nostril = np.exp(-(((x - 6.6) / 2.1) ** 2) - ((y + 44.6) / 1.3) ** 2) * ahead
     colors *= 1.0 - nostril[:, None] * np.array([0.72, 0.82, 0.82])
     _paint_lips(skin, colors)
     for loops in skin.eyes:

@@ -36,7 +36,7 @@ def rounded(part: Anatomy) -> list[Move]:
     body = 1.0 - 0.35 * red
     return [
         gather(part, part.near, 0.44),
-        shift(part.near, z=7.5),
+        shift(part.near, y=-0.8, z=7.5),
         shift(corner(part, 0.8), z=4.5),
         shift(upper(part) * (1 - red), y=0.8),
         shift(upper(part) * red, y=0.6, z=0.8),
@@ -73,7 +73,7 @@ def pressed(part: Anatomy) -> list[Move]:
     return [
         shift(upper(part) * outside, y=-1.5, z=-0.6),
         shift(lower(part) * outside, y=1.8, z=-0.4),
-        shift((upper(part, 0.5) + lower(part, 0.5)) * red, z=-2.2),
+        shift((upper(part, 0.5) + lower(part, 0.5)) * red, z=-1.8),
         shift(part.near * seam, z=-1.0),
         shift(part.near * red, y=0.2),
         shift(corner(part), z=-0.6),
@@ -88,7 +88,7 @@ def tucked(part: Anatomy) -> list[Move]:
     low = lower(part, 0.6)
     return [
         *jaw(part, 1.5),
-        shift(low * red, y=1.8, z=-4.7),
+        shift(low * red, y=1.8, z=-4.2),
         shift(lower(part) * (1 - red), y=2.4, z=-1.8),
         shift(lower(part) * np.sin(np.pi * red), y=1.2, z=-0.4),
         shift(part.flap, y=-2.0),
@@ -126,7 +126,7 @@ def tongue_roof(part: Anatomy) -> list[Move]:
 
 def tongue_teeth(part: Anatomy) -> list[Move]:
     """`tTeeth`: the tip comes between the teeth."""
-    return [shift(_tip(part, 0.1), z=15.0), shift(_tip(part, 0.3), y=9.0)]
+    return [shift(_tip(part, 0.1), z=18.5), shift(_tip(part, 0.3), y=9.5)]
 
 
 def _tip(part: Anatomy, start: float) -> np.ndarray[tuple[int], np.dtype[np.float64]]:

@@ -45,7 +45,7 @@ class Row:
 
 UPPER = Row(
     (8.4, 6.7, 7.6, 7.0, 6.8, 9.5),
-    (0.9, 0.3, 0.9, 0.3, 0.0, 0.0),
+    (0.9, 0.45, 0.75, 0.35, 0.1, 0.0),
     -70.2,
     -61.2,
     -53.0,
@@ -55,8 +55,8 @@ UPPER = Row(
 )
 LOWER = Row(
     (5.3, 5.9, 6.8, 7.0, 7.0, 10.5),
-    (0.3, 0.2, 0.6, 0.3, 0.0, 0.0),
-    -72.6,
+    (0.2, 0.2, 0.4, 0.2, 0.0, 0.0),
+    -72.0,
     -80.8,
     -84.5,
     26.0,
@@ -64,8 +64,8 @@ LOWER = Row(
     45.6,
 )
 
-_ACROSS = np.array([0.0, 0.14, 0.5, 0.86])  # stations on one tooth
-_HOLLOW = np.array([-1.3, -0.35, 0.0, -0.35])  # how far each lies behind the tooth's front
+_ACROSS = np.array([0.0, 0.09, 0.5, 0.91])  # stations on one tooth
+_HOLLOW = np.array([-0.9, -0.3, 0.0, -0.3])  # how far each lies behind the tooth's front
 _ROUND = np.array([1.0, 0.12, 0.0, 0.12])  # how much the edge is rounded there
 _SCALLOP = np.array([1.0, 0.3, 0.0, 0.3])  # the gum's margin: longest between two teeth
 # Down the tooth: share of the way from neck to edge, and how far outward (mm).
@@ -123,7 +123,7 @@ def teeth(row: Row) -> tuple[Floats, Indices]:
     layers = []
     for share, out in _PROFILE:
         near_edge = np.clip(share, 0.0, 1.0) ** 3
-        y = row.neck + (row.edge - row.neck) * share + down * near_edge * (long - 1.1 * rounding)
+        y = row.neck + (row.edge - row.neck) * share + down * near_edge * (long - 0.45 * rounding)
         at = point + outward * (out + hollow * (0.55 + 0.45 * share) * (share > -0.1))[:, None]
         layers.append(np.stack([at[:, 0], y, at[:, 1]], axis=1))
     return _sheet(np.stack(layers), row)

@@ -36,7 +36,7 @@ from lipwright.engines.bigram.stages import Plan, Stages, bound, run
 from lipwright.engines.bigram.stand_in import STAND_IN
 from lipwright.engines.bigram.table import Placed, Table
 from lipwright.errors import InputError
-from lipwright.phones import PhoneTrack
+from lipwright.phones import SILENCE, PhoneTrack
 from lipwright.phones.reduction import ReductionReport
 from lipwright.speech import Speech
 from lipwright.timeline import Tier
@@ -272,14 +272,23 @@ class BigramEngine:
         used = [self.table.bigrams[number] for number in dict.fromkeys(numbers.tolist())]
         return [bigram.pair for bigram in used if bigram.source == STAND_IN]
 
+    def _bare(self, solved: Solved) -> list[str]:
+        """Classes of stand-ins that have no single-phone curve either: nothing moves."""
+        labels = {label for pair in self.stand_ins(solved) for label in pair}
+        return sorted(labels - set(self.of.singles) - {SILENCE})
+
     def _report(self, solved: Solved) -> dict[str, Any]:
         report: dict[str, Any] = {
             "set": self.of.name,
+            "set_digest": self.of.digest,
             "preset": self.preset,
             "bigrams": len(solved.spans.pairs),
             "stand_ins": ["-".join(pair) for pair in self.stand_ins(solved)],
             "nearest_classes": solved.reduction.stand_ins,
         }
+        bare = self._bare(solved)
+        if bare:
+            report["without_curves"] = bare
         if solved.edits or solved.lost:
             report["edits"] = [one.edit.name for one in solved.edits]
             report["edits_lost"] = list(solved.lost)

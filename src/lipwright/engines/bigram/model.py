@@ -49,14 +49,16 @@ class Pose(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     softness: float = 0.0
 
     def __post_init__(self) -> None:
-        for what, value, least in (
-            ("limit", self.limit, 1e-3),
-            ("window", self.window, 0.0),
-            ("softness", self.softness, 0.0),
+        for what, value, least, most in (
+            ("limit", self.limit, 1e-3, 1e6),
+            ("window", self.window, 0.0, 10.0),
+            ("softness", self.softness, 0.0, 1.0),
         ):
-            if not least <= value < 1e6:
+            if not least <= value <= most:
                 raise SetError(
-                    f"{what} {value}", where=f"pose {self.name!r}", expected=f"at least {least}"
+                    f"{what} {value}",
+                    where=f"pose {self.name!r}",
+                    expected=f"{least:g} to {most:g}",
                 )
 
 
@@ -262,6 +264,8 @@ class BigramSet:
     presets : mapping of str to Rules
         Other presets by name; ``"published"`` is the paper's.
     about : str
+    digest : str
+        Tells the files it was read from from any others, overrides included.
 
     Raises
     ------
@@ -277,6 +281,7 @@ class BigramSet:
     reach: Mapping[str, str] = field(default_factory=dict)
     presets: Mapping[str, Rules] = field(default_factory=dict)
     about: str = ""
+    digest: str = ""
 
     def __post_init__(self) -> None:
         known = set(self.rules.names)
@@ -313,7 +318,7 @@ class BigramSet:
             return published(self.rules)
         raise InputError(
             f"no preset {name!r} in set {self.name!r}",
-            expected=f"one of {', '.join(['default', 'published', *self.presets])}",
+            expected=f"one of {', '.join(dict.fromkeys(['default', 'published', *self.presets]))}",
         )
 
     def needed(self, classes: tuple[str, ...]) -> tuple[Pair, ...]:

@@ -6,6 +6,7 @@ shows what was done. Reading refuses what is broken with the place in the file.
 
 from __future__ import annotations
 
+import hashlib
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from functools import cache
@@ -25,7 +26,14 @@ from lipwright.engines.bigram.model import (
     Settings,
 )
 from lipwright.errors import InputError, SetError
-from lipwright.files import convert, format_number, format_row, quote, read_document
+from lipwright.files import (
+    convert,
+    format_number,
+    format_row,
+    quote,
+    read_bytes,
+    read_document,
+)
 from lipwright.phones import PhoneSet, load_phone_set
 
 DATA = Path(__file__).parent.parent.parent / "data" / "sets"
@@ -115,9 +123,14 @@ def read_set(path: str | Path) -> BigramSet:
             read.reach,
             read.presets,
             read.about,
+            _digest(read_bytes(path)),
         )
     except InputError as error:
         raise error.at(where) from None
+
+
+def _digest(data: bytes) -> str:
+    return hashlib.sha256(data.replace(b"\r\n", b"\n")).hexdigest()[:12]
 
 
 def _check_label(label: str, classes: PhoneSet) -> None:
@@ -177,6 +190,7 @@ def read_overrides(path: str | Path, base: BigramSet) -> BigramSet:
             rules=_override_rules(base.rules, read, where),
             bigrams={**base.bigrams, **changed},
             singles={**base.singles, **singles},
+            digest=_digest(base.digest.encode() + read_bytes(path)),
         )
         return with_gains(merged, read.gains)
     except InputError as error:
@@ -190,9 +204,9 @@ def _override_rules(rules: Rules, read: _Overrides, where: str) -> Rules:
     poses = []
     for pose in rules.poses:
         fields = {**msgspec.structs.asdict(pose), **read.poses.get(pose.name, {})}
-        poses.append(convert(fields, Pose, f"{where}, pose {pose.name!r}"))
+        poses.append(convert(fields, Pose, f"pose {pose.name!r}"))
     settings = {**msgspec.structs.asdict(rules.settings), **read.settings}
-    changed = convert(settings, Settings, f"{where}, settings")
+    changed = convert(settings, Settings, "settings")
     return msgspec.structs.replace(rules, poses=tuple(poses), settings=changed)
 
 
@@ -200,7 +214,9 @@ def with_gains(base: BigramSet, gains: Mapping[str, float]) -> BigramSet:
     """Return the set with the curves of some poses scaled; weights stay in 0..1."""
     for name, gain in gains.items():
         if name not in base.rules.names:
-            raise SetError(f"gain for the unknown pose {name!r}", expected=f"{base.rules.names}")
+            raise SetError(
+                f"gain for the unknown pose {name!r}", expected=", ".join(base.rules.names)
+            )
         if not 0 <= gain <= 10:
             raise SetError(f"gain {gain} for {name!r}", expected="0 to 10")
     if not gains:

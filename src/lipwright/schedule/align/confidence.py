@@ -2,9 +2,10 @@
 
 Per phone the mean, over its frames, of how much better or worse its own states fit the
 sound than the best of all phones without context (Witt & Young 2000). Right words lie
-near 0 (-3 for synthetic voices), wrong ones below -4. The mapping to 0..1 is a logistic
-function for phones, words and lines each; its constants were set where right and exchanged
-texts meet.
+near 0 (-3 for synthetic voices), wrong ones below -4. In words and lines each phone
+counts once, however long: wrong words fit worst in their short phones. The mapping to 0..1
+is a logistic function for phones, words and lines each; its constants were set where right
+texts, on synthetic voices too, and exchanged ones meet.
 """
 
 from __future__ import annotations
@@ -21,11 +22,12 @@ from lipwright.schedule.align.viterbi import Stretch
 
 # (margin at which right and wrong are as likely, steepness), nats per frame
 _PHONE = (-3.5, 0.8)
-_WORD = (-3.2, 1.2)
-_LINE = (-3.2, 2.0)
+_WORD = (-3.9, 1.2)
+_LINE = (-3.9, 2.5)
 DOUBTFUL = 0.5
 # A pause as long, and as unlike silence, is sound that the words do not account for.
 _UNACCOUNTED = (0.3, -5.0)
+_USUAL = 0.1  # s of such sound that count as much as a phone
 
 
 def margins(
@@ -71,11 +73,15 @@ def line_confidence(phones: Iterable[Heard]) -> float:
 
 
 def mean_margin(phones: Iterable[Heard]) -> float:
-    """Return the margin over all frames of speech; minus infinity if there are none.
+    """Return the mean margin of the phones; minus infinity if there are none.
 
-    Sound that the words do not account for belongs to it.
+    Sound that the words do not account for belongs to it, by its length.
     """
-    speech = [(p.margin, p.end - p.start) for p in phones if not p.is_pause or is_unaccounted(p)]
+    speech = [
+        (p.margin, (p.end - p.start) / _USUAL if p.is_pause else 1.0)
+        for p in phones
+        if not p.is_pause or is_unaccounted(p)
+    ]
     total = sum(weight for _, weight in speech)
     return sum(m * weight for m, weight in speech) / total if total else -math.inf
 

@@ -31,7 +31,7 @@ Progress = Callable[[float], None]
 _FASTEST = 20.0  # phones a second that nobody exceeds for long
 _PAUSE = 0.15  # s of a pause that a piece may be resumed in
 _GAIN = 1.0  # nats per frame by which leaving words out must fit better
-_HOPELESS = 0.03  # a piece surer than this has words of the text in it
+_HOPELESS = 0.05  # a piece surer than this has words of the text in it
 _WORDLESS = -10.0  # the margin of a piece that no words fit
 
 

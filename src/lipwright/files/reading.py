@@ -1,37 +1,22 @@
-"""Files that people edit: read whole or refused, written whole or not at all.
-
-Every such file is JSON with a ``format`` and an integer ``version``. Reading goes
-bytes → text → JSON (no duplicate keys, no NaN) → upgrade, one step per version →
-a checked structure. Writing goes beside the target first and is renamed onto it.
-This is the only module that replaces files on disk.
-"""
+"""Reading: bytes → text → JSON → upgrade → a checked structure; or one clear refusal."""
 
 from __future__ import annotations
 
-import contextlib
-import errno
 import json
 import math
-import os
 import re
 import sys
-import tempfile
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any, NoReturn, TypeVar
 
 import msgspec
 
-from lipwright.errors import FileFormatError, InputError, OutputError
-
-STANDARD_STREAM = "-"
-"""The path that stands for standard input or output."""
-
-_FULL = (errno.ENOSPC, getattr(errno, "EDQUOT", errno.ENOSPC))
-_ANY_WRITE = 0o222
+from lipwright.errors import FileFormatError, InputError
 
 T = TypeVar("T")
 Upgrade = Callable[[dict[str, Any]], dict[str, Any]]
+_NOT_A_NUMBER = re.compile(r'(?<![\w"])-?(?:NaN|Infinity)(?![\w"])')
 
 
 def read_bytes(path: str | Path) -> bytes:
@@ -58,6 +43,36 @@ def read_bytes(path: str | Path) -> bytes:
         raise InputError(f"cannot be read ({error})", where=repr(str(path))) from None
 
 
+def read_standard_input() -> bytes:
+    """Return all of standard input.
+
+    Raises
+    ------
+    InputError
+        If it is closed.
+    """
+    if sys.stdin is None:
+        raise InputError("is closed", where="standard input", cure="pipe something into it")
+    data: bytes = sys.stdin.buffer.read()
+    return data
+
+
+def decode_text(data: bytes, where: str) -> str:
+    """Return UTF-8 bytes as text; ``where`` names them in the error.
+
+    Raises
+    ------
+    FileFormatError
+        If they are not UTF-8.
+    """
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise FileFormatError(
+            f"byte {error.start} is not UTF-8 text", where=where, expected="a text in UTF-8"
+        ) from None
+
+
 def _refuse_duplicates(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     result = dict(pairs)
     if len(result) != len(pairs):
@@ -80,6 +95,14 @@ def _finite(text: str) -> float:
 
 _HUGE = re.compile(rb"[eE][+]?\d{3}|\d{300}")
 _HALF_A_LETTER = re.compile(rb"\\u[dD][89a-fA-F]")
+
+
+def _line_of_constant(data: bytes, where: str) -> str:
+    """The place of the first NaN or Infinity, where there is one."""
+    found = _NOT_A_NUMBER.search(data.decode("utf-8-sig"))
+    if found is None:
+        return where
+    return f"{where}, line {data.decode('utf-8-sig').count(chr(10), 0, found.start()) + 1}"
 
 
 def parse_json(data: bytes, where: str) -> Any:
@@ -109,7 +132,7 @@ def parse_json(data: bytes, where: str) -> Any:
             f"broken JSON ({error.msg})", where=f"{where}, line {error.lineno} column {error.colno}"
         ) from None
     except FileFormatError as error:
-        raise error.at(where) from None
+        raise error.at(_line_of_constant(data, where)) from None
     except UnicodeEncodeError:
         raise FileFormatError(
             "an escape \\ud8.. without its other half", where=where, expected="whole letters"
@@ -194,140 +217,3 @@ def read_document(
     return check_document(
         parse_json(data, str(path)), str(path), format=format, version=version, upgrades=upgrades
     )
-
-
-def check_target(path: str | Path) -> None:
-    """Refuse a name that cannot be written, before work is spent on what goes there.
-
-    A file without any right to write is refused even where the user could replace it:
-    someone meant it to stay.
-
-    Raises
-    ------
-    OutputError
-        If it is a folder or read-only, or its folder does not exist.
-    """
-    target = Path(path)
-    try:
-        if target.is_dir():
-            raise OutputError("is a folder", where=str(path), expected="a file's name")
-        if not target.parent.is_dir():
-            raise _output_error(OSError(errno.ENOENT, ""), path)
-        if target.exists() and not (
-            target.stat().st_mode & _ANY_WRITE and os.access(target, os.W_OK)
-        ):
-            raise OutputError("is read-only", where=str(path), cure="choose another name")
-    except OutputError:
-        raise
-    except OSError as error:
-        raise _output_error(error, path) from None
-
-
-def write_atomically(path: str | Path, data: bytes) -> None:
-    """Put ``data`` into a file, whole; on failure what was there stays as it was.
-
-    A link is followed. What is no file (a pipe, a device) is written into, never replaced.
-
-    Raises
-    ------
-    OutputError
-        If the folder is missing, the disk is full, or writing is not allowed.
-    """
-    check_target(path)
-    try:
-        if Path(path).exists() and not Path(path).is_file():
-            Path(path).write_bytes(data)
-        else:
-            _replace(Path(os.path.realpath(path)), data)
-    except OSError as error:
-        raise _output_error(error, path) from None
-    except ValueError as error:  # a zero byte in the name
-        raise OutputError(f"cannot be written ({error})", where=repr(str(path))) from None
-
-
-def _replace(target: Path, data: bytes) -> None:
-    rights = target.stat().st_mode & 0o777 if target.exists() else 0o666 & ~_umask()
-    handle, name = tempfile.mkstemp(dir=target.parent, prefix=".lipwright-", suffix=".part")
-    part = Path(name)
-    try:
-        with os.fdopen(handle, "wb") as file:
-            file.write(data)
-            file.flush()
-            os.fsync(file.fileno())
-        part.chmod(rights)
-        part.replace(target)
-    except BaseException:
-        with contextlib.suppress(OSError):
-            part.unlink()
-        raise
-
-
-def write_output(path: str | Path, data: bytes) -> None:
-    """Write ``data`` to a file, or to standard output where ``path`` is ``"-"``.
-
-    Raises
-    ------
-    OutputError
-        If it cannot be written.
-    """
-    if str(path) != STANDARD_STREAM:
-        write_atomically(path, data)
-        return
-    try:
-        sys.stdout.flush()
-        sys.stdout.buffer.write(data)
-        sys.stdout.buffer.flush()
-    except OSError as error:
-        with contextlib.suppress(OSError):  # else the interpreter tries again when it ends
-            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        raise _output_error(error, "standard output") from None
-
-
-def _umask() -> int:
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask
-
-
-def _output_error(error: OSError, path: str | Path) -> OutputError:
-    folder = str(Path(path).parent)
-    if error.errno in _FULL:
-        return OutputError("the disk is full", where=str(path), cure="free some space, then again")
-    if error.errno in (errno.ENOENT, errno.ENOTDIR):
-        return OutputError(
-            f"the folder {folder!r} does not exist", where=str(path), cure="make it first"
-        )
-    if error.errno in (errno.EACCES, errno.EPERM, errno.EROFS):
-        return OutputError(
-            f"the folder {folder!r} is read-only, or another program holds the file",
-            where=str(path),
-        )
-    return OutputError(f"cannot be written ({error.strerror})", where=str(path))
-
-
-def format_number(value: float, digits: int = 4) -> str:
-    """Return a number as short text: at most ``digits`` decimals, no trailing zeros.
-
-    Examples
-    --------
-    >>> format_number(0.25), format_number(1.0), format_number(-0.00001)
-    ('0.25', '1', '0')
-    """
-    text = f"{value:.{digits}f}".rstrip("0").rstrip(".") if digits else f"{value:.0f}"
-    return "0" if text in ("-0", "") else text
-
-
-def format_row(values: Sequence[float], digits: int = 4) -> str:
-    """Return numbers as one JSON list on one line.
-
-    Examples
-    --------
-    >>> format_row([0, 0.5, 1])
-    '[0, 0.5, 1]'
-    """
-    return "[" + ", ".join(format_number(value, digits) for value in values) + "]"
-
-
-def quote(text: str) -> str:
-    """Return text as a JSON string, letters kept as they are."""
-    return json.dumps(text, ensure_ascii=False)

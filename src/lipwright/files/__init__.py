@@ -1,0 +1,43 @@
+"""Files that people edit: read whole or refused, written whole or not at all.
+
+Every such file is JSON with a ``format`` and an integer ``version``. Reading goes
+bytes → text → JSON (no duplicate keys, no NaN) → upgrade, one step per version →
+a checked structure. Writing goes beside the target first and is renamed onto it.
+This is the only place that replaces files on disk.
+"""
+
+from lipwright.files.reading import (
+    check_document,
+    convert,
+    decode_text,
+    parse_json,
+    read_bytes,
+    read_document,
+    read_standard_input,
+)
+from lipwright.files.text import format_number, format_row, quote
+from lipwright.files.writing import (
+    STANDARD_STREAM,
+    check_target,
+    write_all,
+    write_atomically,
+    write_output,
+)
+
+__all__ = [
+    "STANDARD_STREAM",
+    "check_document",
+    "check_target",
+    "convert",
+    "decode_text",
+    "format_number",
+    "format_row",
+    "parse_json",
+    "quote",
+    "read_bytes",
+    "read_document",
+    "read_standard_input",
+    "write_all",
+    "write_atomically",
+    "write_output",
+]
