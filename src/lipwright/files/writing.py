@@ -166,7 +166,8 @@ def _umask() -> int:
 
 def _output_error(error: OSError, path: str | Path) -> OutputError:
     folder = Path(os.path.realpath(path)).parent
-    shown = str(folder if os.path.islink(path) else Path(path).parent)
+    linked = os.path.islink(path)  # noqa: PTH114 - the method raises on names that are too long
+    shown = str(folder if linked else Path(path).parent)
     if error.errno in _FULL:
         return OutputError("the disk is full", where=str(path), cure="free some space, then again")
     if error.errno in (errno.ENOENT, errno.ENOTDIR):
