@@ -11,8 +11,8 @@ import numpy as np
 import soxr
 from numpy.typing import NDArray
 
-from bench.aligning import DATA, matched, starts
 from bench.measure import say
+from bench.recordings import DATA, is_damaged, matched, starts
 from lipwright import pipeline
 from lipwright.errors import LipwrightError
 from lipwright.sound import Sound
@@ -21,11 +21,6 @@ from lipwright.sound_files import read_sound
 Samples = NDArray[np.float32]
 Spectra = NDArray[np.complex128]
 _WINDOW, _HOP = 512, 128
-
-
-def is_damaged(samples: Samples) -> bool:
-    """Whether bytes were lost in the file, which turns what follows into loud noise."""
-    return bool(np.mean(np.abs(samples) > 0.5) > 0.01)
 
 
 def noisy(decibels: float) -> Callable[[Samples, int], Samples]:

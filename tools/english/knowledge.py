@@ -89,7 +89,7 @@ SOUNDS: dict[str, Sound] = {
     "ao": vowel(open=0.38, W=0.56),
     "eh": vowel(open=0.57, wide=0.22),
     "er": vowel(open=0.26, W=0.18, ShCh=0.32, tBack=0.25),
-    "ih": vowel(open=0.31, wide=0.32),
+    "ih": vowel(open=0.31, wide=0.29),
     "w": vowel(open=0.07, W=0.92, tBack=0.30),
     # Diphthongs: from … to … In running speech 'ay' does not reach its /ih/.
     "ow": diphthong({"open": 0.38, "W": 0.44}, {"open": 0.18, "W": 0.80}),
@@ -103,7 +103,7 @@ SOUNDS: dict[str, Sound] = {
     "h": consonant(0.70, 0.80, 0.80, open=0.10),
     "r": consonant(0.30, 0.60, 0.20, open=0.06, W=0.52, ShCh=0.12, tBack=0.20),
     "l": consonant(0.45, 0.45, 0.45, open=0.36, W=0.10, tRoof=0.80),
-    "z": consonant(0.15, 0.40, 0.40, open=0.22, wide=0.30, tRoof=0.35),
+    "z": consonant(0.15, 0.40, 0.40, open=0.23, wide=0.28, tRoof=0.35),
     "sh": consonant(0.15, 0.50, 0.10, open=0.12, W=0.20, ShCh=0.92, tRoof=0.30),
     "th": consonant(0.20, 0.35, 0.40, open=0.18, W=0.12, tTeeth=0.95),
     "d": consonant(0.30, 0.50, 0.50, open=0.10, W=0.11, tRoof=0.82),
