@@ -3,7 +3,7 @@
 import subprocess
 import sys
 
-MEASURES = ("startup", "speaking", "stages", "models", "aligning", "quality")
+MEASURES = ("startup", "speaking", "stages", "models", "aligning", "robustness", "quality")
 
 if __name__ == "__main__":
     chosen = sys.argv[1:] or MEASURES
