@@ -147,6 +147,36 @@ def animation_of(samples: np.ndarray, folder: Path) -> Animation:
     return Animation.load(folder / "plain.json")
 
 
+def test_half_an_hour_with_its_labels(samples: np.ndarray, tmp_path: Path) -> None:
+    line = resampled(samples, 8000)
+    count = int(1800 * 8000 / len(line))
+    sound = tmp_path / "long.wav"
+    soundfile.write(sound, np.tile(line, count), 8000)
+    length = len(line) / 8000
+    rows = [(i * length, length) for i in range(count)]
+    labels = "".join(f"{s:.4f}\t{s + 0.5 * d:.4f}\taa\n" for s, d in rows)
+    (tmp_path / "long.txt").write_text(labels)
+    arguments = ["animate", str(sound), "--labels", str(tmp_path / "long.txt"), "--rate", "30"]
+    assert main([*arguments, "-o", str(tmp_path / "a.json")]) == 0
+    animation = Animation.load(tmp_path / "a.json")
+    assert animation.duration == pytest.approx(count * length, abs=0.5)
+    assert animation.at([rows[-1][0] + 0.25 * length])[0, 0] > 0.3
+
+
+def test_minutes_are_aligned_piece_by_piece(samples: np.ndarray, tmp_path: Path) -> None:
+    """Half an hour takes the same way: ``python -m bench aligning`` measures it."""
+    count = 30
+    sound = tmp_path / "minutes.wav"
+    soundfile.write(sound, np.tile(samples, count), RATE)
+    arguments = ["animate", str(sound), "--text", " ".join([LINE] * count), "-o"]
+    assert main([*arguments, str(tmp_path / "a.json")]) == 0
+    animation = Animation.load(tmp_path / "a.json")
+    length = len(samples) / RATE
+    first = [word.start for word in animation.words][:: len(LINE.split())]
+    assert len(animation.words) == count * len(LINE.split())
+    assert np.diff(first) == pytest.approx(length, abs=0.1)
+
+
 def test_sound_comes_through_a_pipe(samples: np.ndarray, tmp_path: Path) -> None:
     command = [sys.executable, "-m", "lipwright", "animate", "-", "--text", LINE, "-o", "-"]
     run = subprocess.run(command, input=header_of_unknown_length(samples), capture_output=True)
