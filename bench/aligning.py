@@ -1,19 +1,18 @@
-"""Alignment: speed and memory on synthesised speech, quality on labelled recordings.
+"""Alignment: speed and memory on synthesised speech; whether all recordings come through.
 
 The recordings lie beside the project, in ``../shared/data``; without them only speed and
-memory are measured.
+memory are measured. How exact the times are is measured in :mod:`bench.robustness`.
 """
 
 import csv
 import time
-
-import numpy as np
+from collections.abc import Iterator
+from pathlib import Path
 
 from bench.measure import milliseconds, peak_mb, say
-from bench.recordings import DATA, is_damaged, matched, starts
+from bench.recordings import DATA
 from lipwright import pipeline
 from lipwright.errors import LipwrightError
-from lipwright.sound_files import read_sound
 
 LINE = "She had your dark suit in greasy wash water all year."
 LONG = """
@@ -29,59 +28,30 @@ assert len(speech.words) == 11 * count
 """
 
 
-def measure_timit() -> None:
-    """Starts of phones beside a hand's, on the labelled sentences.
+def sentences(name: str) -> Iterator[tuple[Path, str]]:
+    """Give each recording of a folder with its words."""
+    if name == "timit":
+        for path in sorted((DATA / name).glob("*/*.flac")):
+            yield path, path.with_suffix(".txt").read_text().split(maxsplit=2)[2]
+        return
+    with (DATA / name / "text.csv").open(newline="") as table:
+        for row in csv.DictReader(table):
+            yield DATA / name / "audio" / f"{row['sentence']}.flac", row["text"]
 
-    In some of the files bytes were lost, and what follows is noise: they must come through,
-    but there is nothing in them to compare.
-    """
-    pairs: list[float] = []
-    phones, recordings, failed, seconds, sound_seconds = 0, 0, 0, 0.0, 0.0
-    for path in sorted((DATA / "timit").glob("*/*.flac")):
-        text = path.with_suffix(".txt").read_text().split(maxsplit=2)[2]
-        hand = starts(pipeline.from_labels(path.with_suffix(".phn")).phones)
-        sound = read_sound(path)
-        before = time.process_time()
+
+def come_through(name: str) -> None:
+    """Whether every recording of a folder comes through, damaged ones included."""
+    count, failed, doubtful = 0, 0, 0
+    for path, text in sentences(name):
+        count += 1
         try:
-            ours = pipeline.align(sound, text)
-        except LipwrightError:
-            failed += 1
-            continue
-        seconds += time.process_time() - before
-        sound_seconds += sound.duration
-        if not is_damaged(sound.samples):
-            recordings += 1
-            pairs += matched(starts(ours.phones), hand)
-            phones += len(hand)
-    off = np.abs(pairs)
-    say(
-        "align TIMIT: phone starts beside a hand's",
-        recordings=recordings,
-        failed_of_60=failed,
-        within_20_ms=round(float(np.mean(off <= 0.020)), 3),
-        within_50_ms=round(float(np.mean(off <= 0.050)), 3),
-        median_ms=round(1e3 * float(np.median(off)), 1),
-        matched=round(len(off) / phones, 3),
-        cpu_per_second_of_sound=round(seconds / sound_seconds, 3),
-    )
-
-
-def measure_grid() -> None:
-    """Whether every sentence of the GRID speaker comes through, and how sure we are."""
-    with (DATA / "grid" / "text.csv").open(newline="") as table:
-        rows = list(csv.DictReader(table))
-    failed, doubtful = 0, 0
-    for row in rows:
-        try:
-            speech = pipeline.align(
-                DATA / "grid" / "audio" / f"{row['sentence']}.flac", row["text"]
-            )
+            speech = pipeline.align(path, text)
             pipeline.animate(speech)
         except LipwrightError:
             failed += 1
             continue
         doubtful += speech.confidence is not None and speech.confidence < 0.5
-    say("align and animate GRID", sentences=len(rows), failed=failed, doubtful=doubtful)
+    say(f"align and animate {name}", recordings=count, failed=failed, doubtful=doubtful)
 
 
 if __name__ == "__main__":
@@ -99,6 +69,6 @@ if __name__ == "__main__":
         peak = peak_mb(LONG.format(line=LINE, minutes=minutes))
         seconds = round(time.perf_counter() - before, 1)
         say(f"align {minutes} minutes", seconds=seconds, peak_mb=peak)
-    if (DATA / "timit").is_dir():
-        measure_timit()
-        measure_grid()
+    for folder in ("timit", "grid"):
+        if (DATA / folder).is_dir():
+            come_through(folder)

@@ -17,6 +17,30 @@ from lipwright.errors import InputError
 Floats = NDArray[np.float64]
 
 
+def check_series(times: Floats, values: Floats, what: str) -> None:
+    """Refuse values over time that make no sense; ``what`` names one of them.
+
+    Raises
+    ------
+    InputError
+        If the lengths differ, a number is not finite, or times do not increase.
+    """
+    if times.ndim != 1 or times.shape != values.shape:
+        raise InputError(
+            f"{times.shape} times and {values.shape} values", expected="as many values as times"
+        )
+    # A set has thousands of curves: what is right must be seen in a few calls.
+    if not (np.isfinite(times).all() and np.isfinite(values).all()):
+        raise InputError(f"a {what} is not finite", expected="finite numbers")
+    rising = times[1:] > times[:-1]
+    if not rising.all():
+        late = int(rising.argmin()) + 1
+        raise InputError(
+            f"{what} {late + 1} at {times[late]:.6g} does not come after the one before it",
+            expected="times that increase",
+        )
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Keys:
     """A piecewise-linear curve; zero outside its keys.
@@ -43,21 +67,7 @@ class Keys:
     values: Floats
 
     def __post_init__(self) -> None:
-        if self.times.ndim != 1 or self.times.shape != self.values.shape:
-            raise InputError(
-                f"{self.times.shape} times and {self.values.shape} values",
-                expected="as many values as times",
-            )
-        # A set has thousands of curves: what is right must be seen in a few calls.
-        if not (np.isfinite(self.times).all() and np.isfinite(self.values).all()):
-            raise InputError("a key is not finite", expected="finite numbers")
-        rising = self.times[1:] > self.times[:-1]
-        if not rising.all():
-            late = int(rising.argmin()) + 1
-            raise InputError(
-                f"key {late + 1} at {self.times[late]:.6g} does not come after the one before it",
-                expected="times that increase",
-            )
+        check_series(self.times, self.values, "key")
 
     @classmethod
     def of(cls, pairs: ArrayLike) -> Keys:

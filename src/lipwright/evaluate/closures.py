@@ -13,7 +13,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from lipwright.evaluate.curve import Curve, Floats
+from lipwright.curves import Floats
+from lipwright.evaluate.curve import Curve
 from lipwright.phones import SILENCE, PhoneTrack
 
 KINDS = {"p b m": ("p", "b", "m", "bmp"), "f v": ("f", "v")}

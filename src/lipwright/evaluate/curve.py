@@ -7,9 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from lipwright.errors import InputError
+from lipwright.curves import Floats, check_series
 
-Floats = NDArray[np.float64]
 Ints = NDArray[np.intp]
 
 
@@ -34,19 +33,7 @@ class Curve:
     values: Floats
 
     def __post_init__(self) -> None:
-        if self.times.ndim != 1 or self.times.shape != self.values.shape:
-            raise InputError(
-                f"{self.times.shape} times and {self.values.shape} values",
-                expected="as many values as times",
-            )
-        if not (np.isfinite(self.times).all() and np.isfinite(self.values).all()):
-            raise InputError("a value is not finite", expected="finite numbers")
-        if np.any(np.diff(self.times) <= 0):
-            late = int(np.argmax(np.diff(self.times) <= 0)) + 1
-            raise InputError(
-                f"time {self.times[late]:g} s comes after {self.times[late - 1]:g} s",
-                expected="times that increase",
-            )
+        check_series(self.times, self.values, "value")
 
     def at(self, times: Floats) -> Floats:
         """Return the values at ``times``: linear in between, held outside."""

@@ -13,9 +13,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from lipwright.curves import Floats
 from lipwright.errors import InputError
 from lipwright.evaluate.closures import KINDS, SHARES, Closures, Mouths, closures
-from lipwright.evaluate.curve import Curve, Floats, span, turns
+from lipwright.evaluate.curve import Curve, span, turns
 from lipwright.evaluate.recording import Recording
 from lipwright.phones import SILENCE, PhoneTrack
 

@@ -9,8 +9,9 @@ from pathlib import Path
 
 import numpy as np
 
+from lipwright.curves import Floats
 from lipwright.errors import FileFormatError
-from lipwright.evaluate.curve import Curve, Floats
+from lipwright.evaluate.curve import Curve
 from lipwright.files import read_bytes
 
 GAP, WIDTH, PUCKER = "lipGapInner", "lipWidth", "mouthPucker"
