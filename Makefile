@@ -2,7 +2,7 @@
 #   make demo    a speaking head, and the files that come with it, in demo/
 #   make test    formatting, lint, types, the client's tests, tests and doctests
 #   make check   formatting, lint and types only
-#   make bench   measures: speed, memory and quality, one JSON line each
+#   make bench   measures: speed, memory and quality, as one JSON object
 
 SHELL := /bin/sh
 PYTHON := $(shell for p in python3.11 python3.12 python3.13 python3.14 python3 python; do \

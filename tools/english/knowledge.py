@@ -27,7 +27,7 @@ Levels = dict[str, float]
 # widest a little after its middle: the jaw follows the voice. A consonant holds its shape.
 VOWEL_AT = (0.54, 0.66)
 DIPHTHONG_AT = (0.37, 0.78)
-CONSONANT_AT = (0.42, 0.72)
+CONSONANT_AT = (0.42, 0.64)
 
 
 @dataclass(frozen=True)
@@ -85,41 +85,41 @@ SOUNDS: dict[str, Sound] = {
     # Vowels. 'open' falls with vowel height; 'W' is rounding, 'wide' is spreading. The class
     # 'ah' holds the open vowel of "cat" and every schwa: it opens less than 'eh'.
     "ah": vowel(open=0.38, W=0.06, wide=0.04),
-    "aa": vowel(open=0.64, wide=0.04),
-    "ao": vowel(open=0.38, W=0.56),
-    "eh": vowel(open=0.57, wide=0.22),
+    "aa": vowel(open=0.64),
+    "ao": vowel(open=0.30, W=0.64),
+    "eh": vowel(open=0.54, wide=0.28),
     "er": vowel(open=0.26, W=0.18, ShCh=0.32, tBack=0.25),
-    "ih": vowel(open=0.31, wide=0.29),
-    "w": vowel(open=0.07, W=0.92, tBack=0.30),
+    "ih": vowel(open=0.31, wide=0.30),
+    "w": vowel(open=0.04, W=0.92, tBack=0.30),
     # Diphthongs: from … to … In running speech 'ay' does not reach its /ih/.
-    "ow": diphthong({"open": 0.38, "W": 0.44}, {"open": 0.18, "W": 0.80}),
-    "aw": diphthong({"open": 0.58, "wide": 0.22}, {"open": 0.20, "W": 0.50}),
+    "ow": diphthong({"open": 0.30, "W": 0.44}, {"open": 0.18, "W": 0.80}),
+    "aw": diphthong({"open": 0.50, "wide": 0.30}, {"open": 0.18, "W": 0.40}),
     "oy": diphthong({"open": 0.38, "W": 0.64}, {"open": 0.34, "wide": 0.28}),
-    "ay": diphthong({"open": 0.58, "W": 0.08}, {"open": 0.50, "wide": 0.14}),
+    "ay": diphthong({"open": 0.54, "W": 0.12}, {"open": 0.50, "W": 0.04, "wide": 0.08}),
     # Consonants: jaw, rounding and spreading that they let through, then their own shape.
     # In s and z the teeth meet and the lips part; behind d, l and k the jaw stays loose.
     # A mouth at rest is broader than one that speaks: where lips are free they are still
     # drawn in a little (W about 0.1).
-    "h": consonant(0.70, 0.80, 0.80, open=0.10),
-    "r": consonant(0.30, 0.60, 0.20, open=0.06, W=0.52, ShCh=0.12, tBack=0.20),
-    "l": consonant(0.45, 0.45, 0.45, open=0.36, W=0.10, tRoof=0.80),
-    "z": consonant(0.15, 0.40, 0.40, open=0.23, wide=0.28, tRoof=0.35),
-    "sh": consonant(0.15, 0.50, 0.10, open=0.12, W=0.20, ShCh=0.92, tRoof=0.30),
-    "th": consonant(0.20, 0.35, 0.40, open=0.18, W=0.12, tTeeth=0.95),
-    "d": consonant(0.30, 0.50, 0.50, open=0.10, W=0.11, tRoof=0.82),
-    "kg": consonant(0.45, 0.55, 0.55, open=0.18, W=0.06, tBack=0.78),
+    "h": consonant(0.70, 0.80, 0.80, open=0.04),
+    "r": consonant(0.30, 0.60, 0.20, open=0.03, W=0.56, ShCh=0.12, tBack=0.20),
+    "l": consonant(0.45, 0.45, 0.45, open=0.48, W=0.04, tRoof=0.80),
+    "z": consonant(0.15, 0.40, 0.40, open=0.29, W=0.05, wide=0.28, tRoof=0.35),
+    "sh": consonant(0.15, 0.50, 0.10, open=0.15, W=0.16, ShCh=0.92, tRoof=0.30),
+    "th": consonant(0.20, 0.35, 0.40, open=0.06, W=0.20, tTeeth=0.95),
+    "d": consonant(0.30, 0.50, 0.50, open=0.14, W=0.05, tRoof=0.82),
+    "kg": consonant(0.45, 0.55, 0.55, open=0.12, W=0.04, tBack=0.78),
     # Closures: what must be seen. The jaw may ride along, the lips may not; pressed lips
     # draw the corners in.
     "f": Sound(
         "closure",
-        {"FV": 1.0, "open": 0.05, "W": 0.05},
+        {"FV": 1.0, "open": 0.05, "W": 0.12},
         at=(0.30, 0.56),
         lets_through={"W": 0.30, "wide": 0.25},
         keeps={"W": 0.15, "wide": 0.20},
     ),
     "bmp": Sound(
         "closure",
-        {"PBM": 1.0, "W": 0.20},
+        {"PBM": 1.0, "W": 0.36},
         at=(0.30, 0.56),
         lets_through={"W": 0.45, "wide": 0.30},
         keeps={"W": 0.35, "wide": 0.25},

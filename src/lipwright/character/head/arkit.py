@@ -31,7 +31,7 @@ Shape = Callable[[Anatomy], list[Move]]
 def _jaw_open(part: Anatomy) -> list[Move]:
     return [
         *jaw(part, JAW_OPEN_DEGREES, forward=5.0, down=2.0),
-        gather(part, part.near, 0.06),
+        gather(part, part.near, 0.13),
         shift(upper(part), y=0.8),
     ]
 

@@ -25,7 +25,7 @@ def opened(part: Anatomy) -> list[Move]:
     """`open`: the jaw drops; lips and cheeks follow."""
     return [
         *jaw(part, OPEN_DEGREES, forward=4.0, down=1.5),
-        gather(part, part.near, 0.05),
+        gather(part, part.near, 0.11),
         shift(upper(part), y=0.8),
     ]
 
