@@ -68,8 +68,11 @@ def drawn_with(levels: Mapping[tuple[str, str, str], float]) -> Iterator[None]:
     """Let the set's tool draw with other levels."""
     before = dict(SOUNDS)
     for (label, target, pose), level in levels.items():
-        old = getattr(SOUNDS[label], target)
-        SOUNDS[label] = replace(SOUNDS[label], **{target: {**old, pose: level}})
+        sound = SOUNDS[label]
+        if target == "first":
+            SOUNDS[label] = replace(sound, first={**sound.first, pose: level})
+        else:
+            SOUNDS[label] = replace(sound, second={**sound.last, pose: level})
     try:
         yield
     finally:
