@@ -15,6 +15,7 @@ from pathlib import Path
 import numpy as np
 
 from lipwright.animation import Animation
+from lipwright.character.between import with_betweens
 from lipwright.character.fitting import Fitting, fit
 from lipwright.character.mapping import Mapping, read_mapping
 from lipwright.character.rig import Rig, read_rig
@@ -82,9 +83,10 @@ class Character:
 
     def _drive(self, animation: Animation) -> Animation:
         try:
-            return self.fit().drive(animation)
+            driven = self.fit().drive(animation)
         except CharacterError as error:
             raise error.at(self.model().where) from None
+        return with_betweens(driven, self.read_rig().all_targets)
 
     def write_mapping(self, path: str | Path) -> None:
         """Write how each control is made, in the model's own names, as a file to edit."""

@@ -10,6 +10,7 @@ import re
 from dataclasses import dataclass, field
 from typing import Any
 
+from lipwright.character.between import between_names
 from lipwright.errors import CharacterError
 from lipwright.gltf import Gltf, MorphMesh, morph_meshes, structure
 
@@ -36,7 +37,13 @@ class Rig:
 
     @property
     def targets(self) -> tuple[str, ...]:
-        """The names of all morph targets, each once, in the file's order."""
+        """The names of all morph targets but in-betweens, each once, in the file's order."""
+        names = self.all_targets
+        return tuple(name for name in names if name not in between_names(names))
+
+    @property
+    def all_targets(self) -> tuple[str, ...]:
+        """The same with in-betweens."""
         return tuple(dict.fromkeys(name for mesh in self.meshes for name in mesh.targets))
 
 

@@ -8,11 +8,15 @@ from pathlib import Path
 import click
 
 from lipwright.cli import options
+from lipwright.cli.faces import build
 
 
 @click.group()
 def character() -> None:
     """Look into characters and their rigs."""
+
+
+character.add_command(build)
 
 
 @character.command()
