@@ -19,7 +19,7 @@ LAYERS = [
     ("animation", "speech"),
     ("performance",),
     ("schedule", "engines", "character", "export", "evaluate"),
-    ("pipeline",),
+    ("pipeline", "corpus"),
     ("cli",),
 ]
 APART = ("schedule", "engines", "character", "export", "evaluate")

@@ -1,4 +1,4 @@
-"""``set coverage``, ``set show`` and ``set why``: look into bigram sets."""
+"""``set show`` and ``set why``: look into bigram sets (``set coverage`` is its own module)."""
 
 from __future__ import annotations
 
@@ -10,15 +10,14 @@ from typing import TYPE_CHECKING
 import click
 
 from lipwright.cli import options
+from lipwright.cli.coverage import coverage
 from lipwright.cli.report import note
 from lipwright.errors import InputError
 
 if TYPE_CHECKING:
     from lipwright.animation import Animation
     from lipwright.curves import Keys
-    from lipwright.engines.bigram.coverage import Coverage
     from lipwright.engines.bigram.why import Explanation
-    from lipwright.phones import PhoneTrack
 
 COLUMNS = 48
 BLOCKS = " ▁▂▃▄▅▆▇█"
@@ -31,76 +30,7 @@ def bigram_set() -> None:
     """Look into bigram sets."""
 
 
-@bigram_set.command()
-@click.argument("name", metavar="[SET]", default="english")
-@click.option("--text", metavar="WORDS", help="Count the pairs that this text needs.")
-@click.option("--text-file", type=click.Path(path_type=Path), metavar="FILE", help="The same.")
-@click.option("--voice", default="en-us", show_default=True, help="Who says the text.")
-@click.option(
-    "--labels", type=click.Path(path_type=Path), multiple=True, metavar="FILE",
-    help="Count the pairs of phone times that exist. May be repeated.",
-)  # fmt: skip
-@click.option(
-    "--reduction", type=click.Path(path_type=Path), metavar="FILE",
-    help="What phones become in the set's classes.",
-)  # fmt: skip
-@options.as_json
-def coverage(
-    name: str,
-    text: str | None,
-    text_file: Path | None,
-    voice: str,
-    labels: tuple[Path, ...],
-    reduction: Path | None,
-    as_json: bool,
-) -> None:
-    """Say which pairs SET has, and which ones lines need that it lacks."""
-    from lipwright.cli.speak import read_text
-    from lipwright.engines.bigram.coverage import coverage as count
-    from lipwright.engines.bigram.set_file import load_set
-
-    if text_file is not None:
-        text = read_text(text_file)
-    lines = _lines(text, voice, labels)
-    found = count(load_set(name), lines, str(reduction) if reduction else None)
-    if as_json:
-        click.echo(json.dumps(_facts(found)))
-    else:
-        click.echo(_coverage_text(name, found, of_lines=lines is not None))
-
-
-def _lines(text: str | None, voice: str, labels: tuple[Path, ...]) -> list[PhoneTrack] | None:
-    from lipwright import pipeline
-
-    lines = [pipeline.from_labels(path).phones for path in labels]
-    if text is not None:
-        lines.append(pipeline.say(text, voice=voice).phones)
-    return lines or None
-
-
-def _facts(found: Coverage) -> dict[str, object]:
-    return {
-        "share": found.share,
-        "needed": {"-".join(pair): count for pair, count in found.needed.items()},
-        "missing": ["-".join(pair) for pair in found.missing],
-        "without_single_curve": list(found.bare),
-    }
-
-
-def _coverage_text(name: str, found: Coverage, *, of_lines: bool) -> str:
-    needed, missing = len(found.needed), len(found.missing)
-    lines = [f"{name}: {needed - missing} of {needed} pairs, {found.share:.1%} by frequency"]
-    if of_lines:
-        lines.append("most frequent: " + _pairs(found, list(found.needed)[:12]))
-    if found.missing:
-        lines.append("missing, made from single phones: " + _pairs(found, list(found.missing[:40])))
-    if found.bare:
-        lines.append(f"no single-phone curve either: {' '.join(found.bare)}")
-    return "\n".join(lines)
-
-
-def _pairs(found: Coverage, pairs: list[tuple[str, str]]) -> str:
-    return "  ".join(f"{a}-{b} {found.needed[a, b]}" for a, b in pairs)
+bigram_set.add_command(coverage)
 
 
 @bigram_set.command()

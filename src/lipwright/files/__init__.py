@@ -6,6 +6,7 @@ a checked structure. Writing goes beside the target first and is renamed onto it
 This is the only place that replaces files on disk.
 """
 
+from lipwright.files.blocks import text_blocks
 from lipwright.files.reading import (
     check_document,
     convert,
@@ -37,6 +38,7 @@ __all__ = [
     "read_bytes",
     "read_document",
     "read_standard_input",
+    "text_blocks",
     "write_all",
     "write_atomically",
     "write_output",

@@ -6,13 +6,14 @@ import json
 import math
 import re
 import sys
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, NoReturn, TypeVar
 
 import msgspec
 
-from lipwright.errors import FileFormatError, InputError
+from lipwright.errors import FileFormatError, InputError, LipwrightError
 
 T = TypeVar("T")
 Upgrade = Callable[[dict[str, Any]], dict[str, Any]]
@@ -27,8 +28,20 @@ def read_bytes(path: str | Path) -> bytes:
     InputError
         If it does not exist, is a folder, or may not be read.
     """
-    try:
+    with readable(path):
         return Path(path).read_bytes()
+
+
+@contextmanager
+def readable(path: str | Path) -> Iterator[None]:
+    """Refuse a file that cannot be read, in one clear line, while it is read.
+
+    Raises
+    ------
+    InputError
+    """
+    try:
+        yield
     except FileNotFoundError:
         raise InputError("no such file", where=str(path), cure="check the path") from None
     except IsADirectoryError:
@@ -37,6 +50,8 @@ def read_bytes(path: str | Path) -> bytes:
         if Path(path).is_dir():
             raise InputError("is a folder", where=str(path), expected="a file") from None
         raise InputError("may not be read", where=str(path), cure="check its rights") from None
+    except LipwrightError:
+        raise
     except OSError as error:
         raise InputError(f"cannot be read ({error.strerror})", where=str(path)) from None
     except ValueError as error:  # a zero byte in the name

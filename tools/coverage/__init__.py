@@ -1,0 +1,1 @@
+"""Makes docs/coverage.md: which pairs English needs, beside the published figures."""
