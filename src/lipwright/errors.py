@@ -20,6 +20,8 @@ each also derives from the built-in that a caller would think of first.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 
 class LipwrightError(Exception):
     """Base of all errors that Lipwright raises on purpose.
@@ -101,3 +103,17 @@ class MissingExtraError(LipwrightError, ImportError):
             f"{what} needs a part that is not installed",
             cure=f"type: pip install 'lipwright[{extra}]'",
         )
+
+
+def did_you_mean(name: str, known: Iterable[str]) -> str:
+    """Return the cure for a name that is nearly a known one; nothing where none is near.
+
+    Examples
+    --------
+    >>> did_you_mean("opn", ["open", "wide"])
+    "did you mean 'open'?"
+    """
+    from difflib import get_close_matches  # only who makes a mistake pays for it
+
+    near = get_close_matches(name, list(known), 3, 0.5)
+    return f"did you mean {' or '.join(map(repr, near))}?" if near else ""

@@ -15,22 +15,30 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from lipwright.errors import CharacterError, InputError, SoundError
+from lipwright.files import file_version
 from lipwright.performance import Performance
 from lipwright.sound import Sound
 from lipwright.speech import Speech
 
 if TYPE_CHECKING:
     from lipwright.animation import Animation
+    from lipwright.character import Character, CharacterFile
     from lipwright.character.head import Landmarks
     from lipwright.character.mesh import Part
-    from lipwright.engines.bigram import BigramEngine
+    from lipwright.engines.bigram import BigramEngine, BigramSet
     from lipwright.evaluate import MotionReport, Recording
 
 Progress = Callable[[float], None]
+DEFAULT_SET = "english"
 
 
 def say(
-    text: str, *, voice: str = "en-us", rate: float = 175.0, pitch: float | None = None
+    text: str,
+    *,
+    voice: str = "en-us",
+    rate: float = 175.0,
+    pitch: float | None = None,
+    character: str | Path | None = None,
 ) -> Speech:
     """Return typed text as speech: sound, words and phones.
 
@@ -45,6 +53,8 @@ def say(
         Words per minute, 80 to 450.
     pitch : float, optional
         0..99.
+    character : str or path, optional
+        Who will speak: its character file may say how slowly and how fast it can.
 
     Raises
     ------
@@ -55,7 +65,11 @@ def say(
     """
     from lipwright.schedule.say import say as speak
 
-    return speak(text, voice=voice, rate=rate, pitch=pitch)
+    file, note = character_file(character), ""
+    if file is not None:
+        rate, note = file.speakable(rate)
+    speech = speak(text, voice=voice, rate=rate, pitch=pitch)
+    return replace(speech, notes=(*speech.notes, note)) if note else speech
 
 
 def align(
@@ -137,7 +151,7 @@ def animate(
     speech: Speech,
     *,
     engine: str = "bigram",
-    bigram_set: str | Path = "english",
+    bigram_set: str | Path | None = None,
     preset: str = "default",
     overrides: str | Path | None = None,
     reduction: str | Path | None = None,
@@ -154,21 +168,21 @@ def animate(
         From :func:`say`, :func:`align`, :func:`recognise` or :func:`from_labels`.
     engine : str
         ``"bigram"``.
-    bigram_set : str or path
-        A set that comes with Lipwright, or a file.
+    bigram_set : str or path, optional
+        A set that comes with Lipwright, or a file; else the character's, else English.
     preset : str
         ``"default"``, ``"published"``, or one that the set brings.
     overrides : path, optional
-        A file that changes single bigrams, gains or settings of the set.
+        A file that changes single bigrams, gains or settings, on top of the character's.
     reduction : path, optional
         A file that says what phones become in the set's classes, instead of the one
         that comes with Lipwright.
     edits : path, optional
         Corrections of this line, hung on its words and phones.
     character : str or path
-        ``"head"``, or a GLB, VRM or glTF file.
+        ``"head"``, a character file, or a GLB, VRM or glTF file.
     mapping : path, optional
-        A mapping file to use for the character instead of the one found.
+        A mapping file that goes before the character's own and the one found.
     rate : float
         Frames per second.
 
@@ -177,52 +191,92 @@ def animate(
     InputError
         If a part of it is unknown or broken.
     """
-    from lipwright.character import BUILT_IN, load_character
+    from lipwright.character import keep_character
     from lipwright.engines.bigram import read_edits
 
     if engine != "bigram":
         raise InputError(f"no engine {engine!r}", expected="bigram")
-    made = engine_for(bigram_set, preset, overrides, reduction)
+    made = engine_for(bigram_set, preset, overrides, reduction, character, speech.language)
     animation = made.animate(speech, rate, read_edits(edits) if edits else ())
-    actor = load_character(character, mapping)
-    if actor.name not in BUILT_IN:  # a built-in one fits, and is made only when it is shown
-        actor.check(animation.controls)
-    return Performance(animation, speech, partial(actor.rig, animation))
-
-
-def engine_for(
-    bigram_set: str | Path = "english",
-    preset: str = "default",
-    overrides: str | Path | None = None,
-    reduction: str | Path | None = None,
-) -> BigramEngine:
-    """Return the engine for a set; it is made once, and anew when a file of it changes."""
-    files = [str(path) if path else None for path in (overrides, reduction)]
-    versions = tuple(map(_version, (str(bigram_set), *files)))
-    return _engine(str(bigram_set), preset, files[0], files[1], versions)
-
-
-def _version(path: str | None) -> tuple[int, int] | None:
-    """Return what tells one state of a file from the next; None for what is no file."""
-    try:
-        state = Path(path).stat() if path else None
-    except OSError:
-        return None
-    return (state.st_mtime_ns, state.st_size) if state else None
+    actor = keep_character(character, mapping)
+    if not actor.fits:
+        _check(actor, animation.controls)
+    report = {**animation.report, "character": actor.report()}
+    named = replace(animation, report=report)
+    told = replace(speech, notes=(*speech.notes, *actor.notes(animation.controls, speech)))
+    return Performance(named, told, partial(actor.rig, named))
 
 
 @lru_cache(maxsize=8)
+def _check(actor: Character, controls: tuple[str, ...]) -> None:
+    actor.check(controls)
+
+
+def engine_for(
+    bigram_set: str | Path | None = None,
+    preset: str = "default",
+    overrides: str | Path | None = None,
+    reduction: str | Path | None = None,
+    character: str | Path = "head",
+    language: str = "",
+) -> BigramEngine:
+    """Return the engine for a set and who speaks; made once, and anew when a file changes."""
+    from lipwright.character import set_of
+
+    file = character_file(character)
+    chosen = _chosen_set(bigram_set, set_of(file, str(character)), language)
+    files = [str(path) if path else None for path in (overrides, reduction)]
+    read = (chosen, *(path for path in files if path))
+    versions = (file.files if file else (), *map(file_version, read))
+    return _engine(chosen, preset, files[0], files[1], file, versions)
+
+
+def character_file(character: str | Path | None) -> CharacterFile | None:
+    """Return a character's file; None, at once, where it is a model or a built-in one."""
+    if character is None or Path(character).suffix.lower() != ".json":
+        return None
+    from lipwright.character import file_of
+
+    return file_of(character)
+
+
+def _chosen_set(given: str | Path | None, own: str, language: str) -> str:
+    """Return the set to animate with: the user's, else the character's, else a default.
+
+    ``language`` is that of the line: one that has a set of its own is answered here.
+    """
+    if given is not None:
+        return str(given)
+    return own or DEFAULT_SET
+
+
+@lru_cache(maxsize=32)
 def _engine(
     bigram_set: str,
     preset: str,
     overrides: str | None,
     reduction: str | None,
+    file: CharacterFile | None,
     versions: tuple[object, ...],
 ) -> BigramEngine:
-    from lipwright.engines.bigram import BigramEngine, load_set, read_overrides
+    from lipwright.engines.bigram import BigramEngine, read_overrides
 
-    base = load_set(bigram_set)
+    base = _loaded_set(bigram_set, file)
     return BigramEngine(read_overrides(overrides, base) if overrides else base, preset, reduction)
+
+
+def _loaded_set(name: str, file: CharacterFile | None) -> BigramSet:
+    """Return a set with what a character, and each character beneath it, changes of it."""
+    from lipwright.engines.bigram import load_set, with_character
+
+    named, where = file.bigram_set if file else ("", "")
+    try:
+        base = load_set(name)
+    except InputError as error:
+        raise (error.at(f"{where}, at set") if name == named else error) from None
+    for layer in file.layers if file else ():
+        base = with_character(base, layer.name, layer.path, layer.overrides, layer.settings)
+    return base
 
 
 def save(performance: Performance, *paths: str | Path) -> None:

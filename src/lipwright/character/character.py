@@ -1,28 +1,34 @@
 """Characters: a model, and how a set's controls move it.
 
 ``head`` is built in and made by the package's own code; anything else is a path to a
-GLB, VRM or glTF file. A mapping file that a user gives goes before what is known of the
-model's vocabulary.
+GLB, VRM or glTF file, or to a character file that names one. What a character file maps,
+and before it a mapping file that a user gives, goes before what is known of the model's
+vocabulary.
 """
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from lipwright.animation import Animation
 from lipwright.character.between import with_betweens
+from lipwright.character.character_file import OWN_PLACES, CharacterFile, Versions
+from lipwright.character.character_reading import is_character_file, read_character_file
 from lipwright.character.fitting import Fitting, fit
-from lipwright.character.mapping import Mapping, read_mapping
+from lipwright.character.mapping import Mapping, merged, read_mapping
 from lipwright.character.rig import Rig, read_rig
-from lipwright.errors import CharacterError
-from lipwright.files import write_atomically
+from lipwright.errors import CharacterError, InputError, did_you_mean
+from lipwright.files import Kept, file_version, write_atomically
 from lipwright.gltf import Gltf, read_gltf
 from lipwright.performance import RiggedModel
+from lipwright.speech import Speech
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -32,19 +38,62 @@ class Character:
     Parameters
     ----------
     name : str
-        ``"head"``, or the model file's name without its suffix.
+        ``"head"``, the character file's name for it, or the model file's name without
+        its suffix.
     model : function
         Returns the model; for a built-in character it is made when first asked for.
     mapping : Mapping, optional
-        The user's own mapping.
+        What goes before the vocabulary's mapping: the character file's and the user's own.
     mapping_name : str
         The mapping's file, in errors.
+    model_name : str
+        The model's path, or the built-in character's name.
+    bigram_set : str
+        The set that it was drawn for, a name or a path; nothing where any will do.
+    file : CharacterFile, optional
+        The character file.
+    mappings : tuple of (Mapping, str)
+        What ``mapping`` was put together from, the first beneath, each with its place.
+    files : tuple of (str, Version)
+        All files that were read.
     """
 
     name: str
     model: Callable[[], Gltf]
     mapping: Mapping | None = None
     mapping_name: str = "mapping"
+    model_name: str = ""
+    bigram_set: str = ""
+    file: CharacterFile | None = None
+    mappings: tuple[tuple[Mapping, str], ...] = ()
+    files: Versions = ()
+
+    @property
+    def fits(self) -> bool:
+        """Whether it is a built-in character as it comes, which needs no checking."""
+        return self.model_name in BUILT_IN and self.mapping is None
+
+    def report(self) -> dict[str, Any]:
+        """Return what an animation's report says of it, as JSON values."""
+        if self.file is None:
+            return {"name": self.name}
+        path = Path(self.file.path).as_posix()
+        return {"name": self.name, "file": path, "digest": self.file.digest}
+
+    def notes(self, controls: Sequence[str], speech: Speech) -> list[str]:
+        """Return what the user should know of this character, a set's controls and a line."""
+        if self.file is None:
+            return []
+        own = [one for one, place in self.mappings if place.endswith(OWN_PLACES)]
+        named = dict.fromkeys(name for one in own for name in (*one.controls, *one.gains))
+        notes = []
+        for name in named:
+            if name not in controls:
+                guess = did_you_mean(name, controls)
+                text = f"{self.file.path} maps {name!r}, which the set has not"
+                notes.append(f"{text}; {guess}" if guess else text)
+        too_fast = self.file.too_fast(speech)
+        return [*notes, too_fast] if too_fast else notes
 
     def read_rig(self) -> Rig:
         """Return what the model has that can move a mouth."""
@@ -99,9 +148,10 @@ def load_character(spec: str | Path, mapping: str | Path | None = None) -> Chara
     Parameters
     ----------
     spec : str or Path
-        ``"head"``, or the path of a GLB, VRM or glTF file.
+        ``"head"``, or the path of a character file (``.json``) or of a GLB, VRM or glTF
+        file.
     mapping : str or Path, optional
-        A mapping file of the user's.
+        A mapping file of the user's; it goes before the character's own.
 
     Returns
     -------
@@ -117,23 +167,96 @@ def load_character(spec: str | Path, mapping: str | Path | None = None) -> Chara
     CharacterError
         If the model cannot move a mouth, or the mapping names what the model has not.
     """
-    own = read_mapping(mapping) if mapping is not None else None
-    own_name = str(mapping) if mapping is not None else ""
-    if str(spec) in BUILT_IN:
-        character = Character(str(spec), BUILT_IN[str(spec)], own, own_name)
-    else:
-        path = Path(spec)
-        if not path.suffix and not path.exists():
-            raise CharacterError(
-                f"no character {str(spec)!r}",
-                expected=f"{', '.join(BUILT_IN)}, or the path of a GLB, VRM or glTF file",
-            )
-        model = read_gltf(path)
-        character = Character(path.stem, lambda: model, own, own_name)
-        character.read_rig()
-    if own is not None:
-        character.fit()
+    file = file_of(spec)
+    source, where = file.model if file else (str(spec), "")
+    name, model, files = _model(source, where)
+    mappings = _mappings(file, mapping)
+    character = Character(
+        file.name if file else name,
+        model,
+        merged([one for one, _ in mappings], name) if mappings else None,
+        mappings[-1][1] if mappings else "",
+        source,
+        set_of(file, name),
+        file,
+        mappings,
+        (*(file.files if file else ()), *files, *_version(mapping)),
+    )
+    if mappings or source not in BUILT_IN:
+        rig = character.read_rig()
+        for one, place in mappings:  # each by itself, so that an error names its own place
+            fit(rig, one, place)
     return character
+
+
+_kept: Kept[Character] = Kept(8)
+
+
+def keep_character(spec: str | Path, mapping: str | Path | None = None) -> Character:
+    """Return a character; it is loaded once, and anew when a file of it changes."""
+    spelled = tuple(str(path) if path else "" for path in (spec, mapping))
+    key = (spelled, tuple(map(os.path.abspath, spelled)))
+    return _kept.get(key, lambda: load_character(spec, mapping))
+
+
+def file_of(spec: str | Path) -> CharacterFile | None:
+    """Return a character's file with its bases; None for a model or a built-in character."""
+    if str(spec) in BUILT_IN or not is_character_file(spec):
+        return None
+    return read_character_file(spec, BUILT_IN)
+
+
+def set_of(file: CharacterFile | None, name: str) -> str:
+    """Return the set that a character was drawn for; nothing where any will do."""
+    if file is None:
+        return BUILT_IN_SETS.get(name, "")
+    of_base = BUILT_IN_SETS.get(file.built_in) or BUILT_IN_SETS.get(file.model[0], "")
+    return file.bigram_set[0] or of_base
+
+
+def _model(source: str, where: str) -> tuple[str, Callable[[], Gltf], Versions]:
+    """Return a model's name, the model, and its files; ``where`` is who names it."""
+    if source in BUILT_IN:
+        return source, BUILT_IN[source], ()
+    if not source:
+        raise CharacterError(
+            "names no model",
+            where=where,
+            expected="a 'model', or a 'base' that has one",
+            cure=f'for the built-in one write "base": "{next(iter(BUILT_IN))}"',
+        )
+    try:
+        return _read_model(Path(source))
+    except InputError as error:
+        raise (error.at(f"{where}, at model") if where else error) from None
+
+
+def _read_model(path: Path) -> tuple[str, Callable[[], Gltf], Versions]:
+    if not path.suffix and not path.exists():
+        raise CharacterError(
+            f"no character {str(path)!r}",
+            expected=f"{', '.join(BUILT_IN)}, or the path of a GLB, VRM or glTF file",
+            cure=did_you_mean(path.name, BUILT_IN),
+        )
+    # Of a glTF in several files nobody says when a buffer changes: it is read every time.
+    version = () if path.suffix.lower() == ".gltf" else _version(path)
+    model = read_gltf(path)
+    return path.stem, lambda: model, version or ((str(path), None),)
+
+
+def _version(path: str | Path | None) -> Versions:
+    return ((str(path), file_version(path)),) if path is not None else ()
+
+
+def _mappings(
+    file: CharacterFile | None, mapping: str | Path | None
+) -> tuple[tuple[Mapping, str], ...]:
+    """Return the mappings of a character, the user's last."""
+    layers = file.layers if file else ()
+    found = [placed for layer in layers for placed in layer.mappings]
+    if mapping is not None:
+        found.append((read_mapping(mapping), str(mapping)))
+    return tuple(found)
 
 
 @cache
@@ -146,3 +269,6 @@ def _head() -> Gltf:
 
 BUILT_IN: dict[str, Callable[[], Gltf]] = {"head": _head}
 """The characters that come with Lipwright, by name."""
+
+BUILT_IN_SETS: dict[str, str] = {}
+"""The bigram set of each built-in character that has one of its own."""

@@ -12,6 +12,7 @@ from typing import Any
 
 from lipwright.character.character import Character
 from lipwright.character.fitting import EXACT, MISSING, FittedControl
+from lipwright.character.sources import describe_layers, inspect_layers, source_of
 from lipwright.files import format_number
 
 _WIDTH = 80
@@ -26,7 +27,9 @@ def inspect_character(character: Character) -> dict[str, Any]:
         ``name``; ``vocabulary`` (or None), ``found`` and ``asked`` (its channels on the
         rig); ``controls`` (for each its ``status``, ``weights``, ``gain``, ``missing``
         and ``note``); ``limits``; ``meshes`` (their ``name`` and ``targets``);
-        ``unused`` (morph targets that no control moves); ``expressions``; ``jaws``.
+        ``unused`` (morph targets that no control moves); ``expressions``; ``jaws``. Of a
+        character file also ``file``, ``layers``, ``model`` and ``speech_rate``. A control's
+        ``from`` names the mapping that makes it, where it is not the vocabulary's.
     """
     rig, fitting = character.read_rig(), character.fit()
     used = {target for fitted in fitting.controls.values() for target in fitted.weights}
@@ -42,6 +45,7 @@ def inspect_character(character: Character) -> dict[str, Any]:
                 "gain": fitting.gains.get(name, 1.0),
                 "missing": list(fitted.missing),
                 "note": fitted.note,
+                "from": source_of(character, name),
             }
             for name, fitted in fitting.controls.items()
         },
@@ -50,6 +54,7 @@ def inspect_character(character: Character) -> dict[str, Any]:
         "unused": [target for target in rig.targets if target not in used],
         "expressions": rig.expressions,
         "jaws": list(rig.jaws),
+        **inspect_layers(character),
     }
 
 
@@ -57,6 +62,8 @@ def describe_character(character: Character) -> str:
     """Return what a character is made of, as a table of at most 80 columns."""
     rig, fitting = character.read_rig(), character.fit()
     lines = [f"{character.name}: {len(rig.targets)} morph targets on {_meshes(len(rig.meshes))}"]
+    for head, text in describe_layers(character):
+        lines += _wrapped(f"{head}: ", text)
     if fitting.vocabulary:
         lines.append(
             f"vocabulary: {fitting.vocabulary}, "
@@ -69,6 +76,8 @@ def describe_character(character: Character) -> str:
         lines.append("")
         for name, fitted in fitting.controls.items():
             lines += _row(name.ljust(width), fitted, fitting.gains.get(name, 1.0))
+            source = source_of(character, name)
+            lines += _wrapped(" " * (width + 14), f"(from {source})") if source else []
     else:
         lines += _wrapped("morph targets  ", ", ".join(rig.targets))
     if rig.jaws:

@@ -9,6 +9,7 @@ rig; :mod:`lipwright.character.fitting` finds these names on a rig.
 from __future__ import annotations
 
 from collections.abc import Mapping as MappingType
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -70,9 +71,9 @@ class Mapping:
         ]
         if self.about:
             parts.append(f'"about": {quote(self.about)}')
-        parts.append(_block("controls", {k: _row(row) for k, row in self.controls.items()}))
+        parts.append(block("controls", {k: row(made) for k, made in self.controls.items()}))
         alternatives = {
-            control: "[" + ", ".join(map(_row, rows)) + "]"
+            control: "[" + ", ".join(map(row, rows)) + "]"
             for control, rows in self.otherwise.items()
         }
         spellings = {k: "[" + ", ".join(map(quote, v)) + "]" for k, v in self.names.items()}
@@ -87,7 +88,7 @@ class Mapping:
             "limits": limits,
             "notes": {k: quote(note) for k, note in self.notes.items()},
         }
-        parts += [_block(key, rows) for key, rows in sections.items() if rows]
+        parts += [block(key, rows) for key, rows in sections.items() if rows]
         return ("{\n  " + ",\n  ".join(parts) + "\n}\n").encode()
 
 
@@ -115,7 +116,7 @@ def read_mapping(path: str | Path) -> Mapping:
     """
     document = read_document(path, format=FORMAT, version=VERSION)
     read = convert(document, _Document, str(path))
-    _check(read, str(path))
+    check_numbers(read.gains, read.limits, str(path))
     return Mapping(
         read.name,
         read.controls,
@@ -128,25 +129,54 @@ def read_mapping(path: str | Path) -> Mapping:
     )
 
 
-def _check(read: _Document, path: str) -> None:
-    for control, gain in read.gains.items():
+def check_numbers(
+    gains: MappingType[str, float], limits: MappingType[str, tuple[float, float]], where: str
+) -> None:
+    """Refuse gains below zero, and limits the wrong way round.
+
+    Raises
+    ------
+    FileFormatError
+    """
+    for control, gain in gains.items():
         if gain < 0:
             raise FileFormatError(
-                f"the gain {gain}", where=f"{path}, at gains.{control}", expected="0 or more"
+                f"the gain {gain}", where=f"{where}, at gains.{control}", expected="0 or more"
             )
-    for channel, (low, high) in read.limits.items():
+    for channel, (low, high) in limits.items():
         if low > high:
             raise FileFormatError(
                 f"the limits {low} to {high}",
-                where=f"{path}, at limits.{channel}",
+                where=f"{where}, at limits.{channel}",
                 expected="the lower one first",
             )
 
 
-def _row(row: MappingType[str, float]) -> str:
-    return "{" + ", ".join(f"{quote(k)}: {format_number(v)}" for k, v in row.items()) + "}"
+def merged(mappings: Sequence[Mapping], name: str) -> Mapping:
+    """Return several mappings as one: the later one goes before the earlier, row by row."""
+    whole = Mapping(name, {})
+    for one in mappings:
+        # A row that is drawn anew leaves what stood in for the old one.
+        otherwise = {c: rows for c, rows in whole.otherwise.items() if c not in one.controls}
+        notes = {c: note for c, note in whole.notes.items() if c not in one.controls}
+        whole = Mapping(
+            name,
+            {**whole.controls, **one.controls},
+            {**otherwise, **one.otherwise},
+            {**whole.names, **one.names},
+            {**whole.gains, **one.gains},
+            {**whole.limits, **one.limits},
+            {**notes, **one.notes},
+        )
+    return whole
 
 
-def _block(key: str, rows: MappingType[str, str]) -> str:
+def row(weights: MappingType[str, float]) -> str:
+    """Return channels and weights as one line of a file."""
+    return "{" + ", ".join(f"{quote(k)}: {format_number(v)}" for k, v in weights.items()) + "}"
+
+
+def block(key: str, rows: MappingType[str, str]) -> str:
+    """Return an object of a file, each of its rows on a line of its own."""
     lines = ",\n    ".join(f"{quote(name)}: {text}" for name, text in rows.items())
     return f"{quote(key)}: {{\n    {lines}\n  }}" if rows else f"{quote(key)}: {{}}"

@@ -1,19 +1,26 @@
-"""``character inspect``: what a rig has, how it is mapped, and what is missing."""
+"""``character``: what a rig has and how it is mapped; a character file to start from."""
 
 from __future__ import annotations
 
 import json
+import textwrap
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
 from lipwright.cli import options
 from lipwright.cli.faces import build
 
+if TYPE_CHECKING:
+    from lipwright.engines.bigram import BigramSet
+
+WIDTH = 80
+
 
 @click.group()
 def character() -> None:
-    """Look into characters and their rigs."""
+    """Look into characters and their rigs; start a character file."""
 
 
 character.add_command(build)
@@ -33,16 +40,67 @@ character.add_command(build)
 def inspect(model: str, mapping: Path | None, write: Path | None, as_json: bool) -> None:
     """Say what the rig of MODEL has and how each pose is made from it.
 
-    MODEL is head, or a .glb, .vrm or .gltf file.
+    MODEL is head, a character file (.json), or a .glb, .vrm or .gltf file. Of a character
+    file it says which of its layers each thing comes from.
     """
     from lipwright.character import describe_character, inspect_character, load_character
+    from lipwright.pipeline import engine_for
 
     loaded = load_character(model, mapping=mapping)
+    of = engine_for(character=model).of if loaded.file is not None else None
     if write is not None:
         loaded.write_mapping(write)
     if as_json:
-        click.echo(json.dumps(inspect_character(loaded), indent=1))
+        facts = inspect_character(loaded)
+        click.echo(json.dumps({**facts, **(_set_facts(of) if of else {})}, indent=1))
     else:
         click.echo(describe_character(loaded))
+        if of is not None:
+            click.echo(_set_text(of))
         if write is not None:
             click.echo(f"\nwritten: {write}")
+
+
+def _set_facts(of: BigramSet) -> dict[str, object]:
+    changes = [
+        {"name": layer.name, "character": layer.character, "where": layer.where}
+        | {"changes": layer.summary(), "pairs": sorted("-".join(pair) for pair in layer.pairs)}
+        for layer in of.layers
+    ]
+    return {"set": of.name, "overrides": changes}
+
+
+def _set_text(of: BigramSet) -> str:
+    lines = [f"set: {of.name}" + ("" if of.layers else ", nothing overridden")]
+    for layer in of.layers:
+        lines += textwrap.wrap(
+            f"{layer.summary()} ({layer.where})",
+            WIDTH,
+            initial_indent="  overrides  ",
+            subsequent_indent=" " * 13,
+            break_long_words=False,
+            break_on_hyphens=False,
+        )
+    return "\n".join(lines)
+
+
+@character.command()
+@click.argument("path", type=click.Path(path_type=Path), metavar="NAME.json")
+@click.option("--model", metavar="MODEL", help="head, or a .glb, .vrm or .gltf file.")
+@click.option("--base", metavar="WHO", help="A character to start from: head, or a file.")
+@click.option("--set", "bigram_set", metavar="SET", help="The bigram set it is drawn for.")
+def new(path: Path, model: str | None, base: str | None, bigram_set: str | None) -> None:
+    """Write a character file to start from; it is then edited.
+
+    With --model it holds how each pose is made on the model; with --base it differs in
+    nothing yet.
+    """
+    from lipwright.character.start_file import start_character
+    from lipwright.pipeline import engine_for
+
+    if model is None and base is None:
+        raise click.UsageError("give --model, --base, or both")
+    if bigram_set is not None:
+        engine_for(bigram_set)  # refused before anything is written
+    start_character(path, model, base, bigram_set)
+    click.echo(f"written: {path}; edit it, and give it with --character {path}")

@@ -37,8 +37,8 @@ animation = stack(
         help="What drives the mouth.",
     ),
     click.option(
-        "--set", "bigram_set", default="english", show_default=True, metavar="SET",
-        help="Bigram set: a name, or a .json file.",
+        "--set", "bigram_set", metavar="SET",
+        help="Bigram set: a name, or a .json file; else the character's, else english.",
     ),
     click.option(
         "--preset", default="default", show_default=True,
@@ -46,7 +46,7 @@ animation = stack(
     ),
     click.option(
         "--overrides", type=click.Path(path_type=Path), metavar="FILE",
-        help="A file that changes single bigrams, gains or settings.",
+        help="A file that changes single bigrams, gains or settings, on top of the character's.",
     ),
     click.option(
         "--reduction", type=click.Path(path_type=Path), metavar="FILE",
@@ -57,8 +57,8 @@ animation = stack(
         help="Corrections of this line, hung on its words and phones.",
     ),
     click.option(
-        "--character", default="head", show_default=True, metavar="MODEL",
-        help="head, or a .glb, .vrm or .gltf file.",
+        "--character", default="head", show_default=True, metavar="WHO",
+        help="head, a character file (.json), or a .glb, .vrm or .gltf file.",
     ),
     click.option(
         "--mapping", type=click.Path(path_type=Path), metavar="FILE",

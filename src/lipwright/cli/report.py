@@ -43,6 +43,8 @@ def tell(performance: Performance, written: Sequence[str], *, as_json: bool) -> 
     bare = animation.report.get("without_curves", [])
     if bare:
         note(f"the set has no curve at all for {' '.join(bare)}: the mouth rests there")
+    if animation.report.get("settings_unused"):
+        note("this preset has settings of its own: those of the overrides are not used")
     lost = animation.report.get("edits_lost", [])
     if lost:
         note(f"edits that find no phone in this line: {', '.join(lost)}")

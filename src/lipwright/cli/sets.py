@@ -85,6 +85,7 @@ def _chart(keys: Keys) -> str:
     "--reduction", type=click.Path(path_type=Path), metavar="FILE", help="The same of a reduction."
 )
 @click.option("--edits", type=click.Path(path_type=Path), metavar="FILE", help="The same of edits.")
+@click.option("--character", metavar="WHO", help="Who speaks, if the file is not found again.")
 @options.as_json
 def why(
     line: Path,
@@ -94,13 +95,16 @@ def why(
     overrides: Path | None,
     reduction: Path | None,
     edits: Path | None,
+    character: str | None,
     as_json: bool,
 ) -> None:
     """Say why the controls of an animation have their values at an instant.
 
-    The instant is that of the nearest frame.
+    The instant is that of the nearest frame. Where a character or --overrides changed what
+    the set says, both are shown.
     """
     from lipwright.animation import Animation
+    from lipwright.cli.cast import character_of
     from lipwright.engines.bigram import read_edits
     from lipwright.engines.bigram.why import why as explain
     from lipwright.pipeline import engine_for
@@ -113,9 +117,11 @@ def why(
             expected="an animation of the bigram engine",
         )
     preset = str(animation.report.get("preset", "default"))
-    chosen = name or _set_of(animation.report, line)
-    engine = engine_for(chosen, preset, overrides, reduction)
-    _check_digest(engine.of.digest, animation.report, line, told=name is not None)
+    who, own_set = character_of(animation.report, line, character)
+    chosen = name or (None if own_set else _set_of(animation.report, line))
+    engine = engine_for(chosen, preset, overrides, reduction, who)
+    told = name is not None or character is not None
+    _check_digest(engine.of.digest, animation.report, line, told=told)
     solved = engine.solve(animation.phones, animation.words, read_edits(edits) if edits else ())
     instants = animation.times
     if not instants[0] - 1 / animation.rate <= time <= instants[-1] + 1 / animation.rate:
@@ -150,7 +156,8 @@ def _check_digest(digest: str, report: dict[str, object], line: Path, *, told: b
     if not made_with or made_with == digest:
         return
     found = f"made with other files of the set {report.get('set')!r}"
-    cure = "name the set, and its overrides if it has any, with --set and --overrides"
+    cure = "name the set, its overrides if it has any, and who spoke, with --set, --overrides "
+    cure += "and --character"
     if not told:
         raise InputError(found, where=str(line), cure=cure)
     note(f"{line} was {found}")

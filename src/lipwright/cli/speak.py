@@ -68,9 +68,11 @@ def say(
     _check(files, how)
     if text == STANDARD_STREAM:
         text = decode_text(read_standard_input(), "standard input")
-    of = [how[name] for name in ("bigram_set", "preset", "overrides", "reduction")]
-    with _meanwhile(pipeline.engine_for, *of):
-        speech = pipeline.say(text, voice=voice, rate=speed, pitch=pitch)
+    of = [how[name] for name in ("bigram_set", "preset", "overrides", "reduction", "character")]
+    with _meanwhile(pipeline.engine_for, *of, voice):
+        speech = pipeline.say(
+            text, voice=voice, rate=speed, pitch=pitch, character=how["character"]
+        )
     _animate(speech, files, as_json, how)
 
 
@@ -169,10 +171,13 @@ def read_text(path: Path) -> str:
 
 def _check(outputs: tuple[str, ...], how: dict[str, Any], *inputs: object) -> None:
     from lipwright.export import check_outputs
+    from lipwright.pipeline import character_file
 
     check_outputs(outputs)
     names = ("bigram_set", "overrides", "reduction", "edits", "character", "mapping")
-    _keep_inputs(outputs, (*inputs, *(how[name] for name in names)))
+    file = character_file(how["character"])
+    named = [path for path, _ in file.files] + [file.model[0]] if file else []
+    _keep_inputs(outputs, (*inputs, *named, *(how[name] for name in names)))
 
 
 def _keep_inputs(outputs: tuple[str, ...], inputs: Iterable[object]) -> None:

@@ -7,10 +7,13 @@ This is the only place that replaces files on disk.
 """
 
 from lipwright.files.blocks import text_blocks
+from lipwright.files.keeping import Kept
 from lipwright.files.reading import (
+    Version,
     check_document,
     convert,
     decode_text,
+    file_version,
     parse_json,
     read_bytes,
     read_document,
@@ -27,10 +30,13 @@ from lipwright.files.writing import (
 
 __all__ = [
     "STANDARD_STREAM",
+    "Kept",
+    "Version",
     "check_document",
     "check_target",
     "convert",
     "decode_text",
+    "file_version",
     "format_number",
     "format_row",
     "parse_json",

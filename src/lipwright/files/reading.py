@@ -58,6 +58,22 @@ def readable(path: str | Path) -> Iterator[None]:
         raise InputError(f"cannot be read ({error})", where=repr(str(path))) from None
 
 
+Version = tuple[int, int, int]
+
+
+def file_version(path: str | Path) -> Version | None:
+    """Return what tells one state of a file from the next; None for what is no file.
+
+    Whoever keeps what was made from a file takes it before reading, and reads anew when
+    it is another.
+    """
+    try:
+        state = Path(path).stat()
+    except (OSError, ValueError):
+        return None
+    return (state.st_mtime_ns, state.st_size, state.st_ino)
+
+
 def read_standard_input() -> bytes:
     """Return all of standard input.
 

@@ -8,7 +8,8 @@ which pairs a text needs.
 from lipwright.engines.bigram.edits import Edit, read_edits
 from lipwright.engines.bigram.engine import BigramEngine
 from lipwright.engines.bigram.model import Bigram, BigramSet
-from lipwright.engines.bigram.set_file import load_set, read_overrides, read_set
+from lipwright.engines.bigram.overrides import read_overrides, with_character
+from lipwright.engines.bigram.set_file import load_set, read_set
 
 __all__ = [
     "Bigram",
@@ -19,4 +20,5 @@ __all__ = [
     "read_edits",
     "read_overrides",
     "read_set",
+    "with_character",
 ]

@@ -60,6 +60,9 @@ class Solved:
         Edits that found their phone.
     lost : tuple of str
         Names of those that did not.
+    track : PhoneTrack, optional
+        The line itself, so that it can be solved in another way too.
+    words : Tier, optional
     """
 
     spans: Spans
@@ -67,6 +70,8 @@ class Solved:
     reduction: ReductionReport
     edits: tuple[Found, ...] = ()
     lost: tuple[str, ...] = ()
+    track: PhoneTrack | None = None
+    words: Tier | None = None
 
     @property
     def unlocked(self) -> set[str]:
@@ -114,6 +119,12 @@ class BigramEngine:
         _keep_freed_memory()
 
     @cached_property
+    def beneath(self) -> BigramEngine | None:
+        """The engine of the set without any overrides; None where there are none."""
+        own = self.of.beneath
+        return BigramEngine(own, self.preset, self._reduction) if own is not None else None
+
+    @cached_property
     def _reach(self) -> dict[str, int]:
         return {label: self.plan.names.index(pose) for label, pose in self.of.reach.items()}
 
@@ -150,7 +161,7 @@ class BigramEngine:
         check_poses(edits, self.plan.names)
         found, lost = find(edits, track.tier.intervals, words or Tier())
         stages = self._run(placed, spans, found)
-        return Solved(spans, stages, report, found, lost)
+        return Solved(spans, stages, report, found, lost, track, words)
 
     def _run(self, placed: Placed, spans: Spans, found: tuple[Found, ...]) -> Stages:
         first, last = float(spans.first[0]), float(spans.last[-1])
@@ -293,6 +304,10 @@ class BigramEngine:
             "stand_ins": ["-".join(pair) for pair in missing],
             "nearest_classes": solved.reduction.stand_ins,
         }
+        if self.of.layers:
+            report["overrides"] = list(dict.fromkeys(layer.name for layer in self.of.layers))
+        if self.preset != "default" and any(layer.has_rules for layer in self.of.layers):
+            report["settings_unused"] = True
         if bare:
             report["without_curves"] = sorted(bare)
         if solved.edits or solved.lost:

@@ -14,7 +14,8 @@ from typing import Literal
 import msgspec
 
 from lipwright.curves import Keys
-from lipwright.errors import InputError, SetError
+from lipwright.engines.bigram.layer import Layer
+from lipwright.errors import InputError, SetError, did_you_mean
 from lipwright.phones import SILENCE
 
 Pair = tuple[str, str]
@@ -266,6 +267,10 @@ class BigramSet:
     about : str
     digest : str
         Tells the files it was read from from any others, overrides included.
+    layers : tuple of Layer
+        What characters and override files changed, the last one on top.
+    beneath : BigramSet, optional
+        The set as it was before the first of them.
 
     Raises
     ------
@@ -282,6 +287,8 @@ class BigramSet:
     presets: Mapping[str, Rules] = field(default_factory=dict)
     about: str = ""
     digest: str = ""
+    layers: tuple[Layer, ...] = ()
+    beneath: BigramSet | None = None
 
     def __post_init__(self) -> None:
         known = set(self.rules.names)
@@ -300,6 +307,7 @@ class BigramSet:
                     f"unknown pose {pose!r}",
                     where=f"{self.name}, {where}",
                     expected=f"one of {', '.join(self.rules.names)}",
+                    cure=did_you_mean(pose, self.rules.names),
                 )
 
     def preset(self, name: str) -> Rules:

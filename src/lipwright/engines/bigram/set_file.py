@@ -1,4 +1,4 @@
-"""Bigram sets and overrides as files that an animator opens (DESIGN sections 4 and 8).
+"""Bigram sets as files that an animator opens (DESIGN sections 4 and 8).
 
 JSON, one pose's key list per line, in a stable order, so that a version-control diff
 shows what was done. Reading refuses what is broken with the place in the file.
@@ -8,10 +8,8 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Iterable, Mapping
-from dataclasses import replace
 from functools import cache
 from pathlib import Path
-from typing import Any
 
 import msgspec
 
@@ -21,11 +19,9 @@ from lipwright.engines.bigram.model import (
     BigramSet,
     Curves,
     Pair,
-    Pose,
     Rules,
-    Settings,
 )
-from lipwright.errors import InputError, SetError
+from lipwright.errors import InputError, SetError, did_you_mean
 from lipwright.files import (
     convert,
     format_number,
@@ -37,7 +33,7 @@ from lipwright.files import (
 from lipwright.phones import PhoneSet, load_phone_set
 
 DATA = Path(__file__).parent.parent.parent / "data" / "sets"
-FORMAT, OVERRIDES_FORMAT, VERSION = "lipwright/bigram-set", "lipwright/bigram-overrides", 1
+FORMAT, VERSION = "lipwright/bigram-set", 1
 
 KeyList = list[tuple[float, float]]
 
@@ -46,7 +42,9 @@ class _Struct(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     pass
 
 
-class _Bigram(_Struct, frozen=True):
+class BigramEntry(_Struct, frozen=True):
+    """A bigram as it stands in a file."""
+
     pair: tuple[str, str]
     curves: dict[str, KeyList]
     boundary: float | None = None
@@ -57,25 +55,13 @@ class _Set(_Struct, frozen=True):
     version: int
     name: str
     rules: Rules
-    bigrams: list[_Bigram]
+    bigrams: list[BigramEntry]
     about: str = ""
     phone_set: str = "common"
     boundary: float = 0.5
     phones: dict[str, dict[str, KeyList]] = {}
     reach: dict[str, str] = {}
     presets: dict[str, Rules] = {}
-
-
-class _Overrides(_Struct, frozen=True):
-    version: int
-    name: str
-    about: str = ""
-    boundary: float = 0.5
-    bigrams: list[_Bigram] = []
-    gains: dict[str, float] = {}
-    phones: dict[str, dict[str, KeyList]] = {}
-    poses: dict[str, dict[str, Any]] = {}
-    settings: dict[str, Any] = {}
 
 
 def load_set(name: str) -> BigramSet:
@@ -113,35 +99,44 @@ def read_set(path: str | Path) -> BigramSet:
         phone_set = str(Path(path).parent / read.phone_set) if own else read.phone_set
         classes = load_phone_set(phone_set)
         for label in (*read.phones, *read.reach):
-            _check_label(label, classes)
+            check_label(label, classes)
         return BigramSet(
             read.name,
             phone_set,
             read.rules,
-            _bigrams(read.bigrams, read.boundary, read.name, classes),
-            {label: _curves(c, f"phone {label!r}") for label, c in read.phones.items()},
+            read_bigrams(read.bigrams, read.boundary, read.name, classes),
+            {label: read_curves(c, f"phone {label!r}") for label, c in read.phones.items()},
             read.reach,
             read.presets,
             read.about,
-            _digest(read_bytes(path)),
+            digest_of(read_bytes(path)),
         )
     except InputError as error:
         raise error.at(where) from None
 
 
-def _digest(data: bytes) -> str:
+def digest_of(data: bytes) -> str:
+    """Return what tells a file's content from any other, whatever its line ends."""
     return hashlib.sha256(data.replace(b"\r\n", b"\n")).hexdigest()[:12]
 
 
-def _check_label(label: str, classes: PhoneSet) -> None:
+def check_label(label: str, classes: PhoneSet) -> None:
+    """Refuse what is no class of the set.
+
+    Raises
+    ------
+    SetError
+    """
     if label not in classes.labels:
         raise SetError(
             f"{label!r} is not a phone of {classes.name!r}",
             expected=f"one of {' '.join(classes.labels)}",
+            cure=did_you_mean(label, classes.labels),
         )
 
 
-def _curves(read: dict[str, KeyList], where: str) -> Curves:
+def read_curves(read: dict[str, KeyList], where: str) -> Curves:
+    """Return key lists as curves; an error names the pose."""
     curves = {}
     for pose, keys in read.items():
         try:
@@ -151,88 +146,27 @@ def _curves(read: dict[str, KeyList], where: str) -> Curves:
     return curves
 
 
-def _bigrams(
-    read: Iterable[_Bigram], boundary: float, source: str, classes: PhoneSet
+def read_bigrams(
+    read: Iterable[BigramEntry], boundary: float, source: str, classes: PhoneSet
 ) -> dict[Pair, Bigram]:
-    bigrams: dict[Pair, Bigram] = {}
-    for entry in read:
-        for label in entry.pair:
-            _check_label(label, classes)
-        where = f"bigram {entry.pair[0]}-{entry.pair[1]}"
-        if entry.pair in bigrams:
-            raise SetError(f"{where} stands twice", cure="remove one of the two")
-        curves = _curves(entry.curves, where)
-        at = boundary if entry.boundary is None else entry.boundary
-        bigrams[entry.pair] = Bigram(entry.pair, curves, at, entry.word, source)
-    return bigrams
-
-
-def read_overrides(path: str | Path, base: BigramSet) -> BigramSet:
-    """Return ``base`` with what an override file changes (DESIGN section 4).
-
-    The file names only what differs: single bigrams, a gain for each pose, single-phone
-    curves, numbers of poses, settings.
+    """Return bigrams by pair; ``source`` is who drew them.
 
     Raises
     ------
-    SetError, FileFormatError
-        If it is broken, or names what the set has not.
+    SetError
+        If a class is unknown, a pair stands twice, or a curve breaks the rules.
     """
-    where = str(path)
-    document = read_document(path, format=OVERRIDES_FORMAT, version=VERSION)
-    read = convert(document, _Overrides, where)
-    try:
-        classes = load_phone_set(base.phone_set)
-        changed = _bigrams(read.bigrams, read.boundary, read.name, classes)
-        singles = {label: _curves(c, f"phone {label!r}") for label, c in read.phones.items()}
-        merged = replace(
-            base,
-            rules=_override_rules(base.rules, read, where),
-            bigrams={**base.bigrams, **changed},
-            singles={**base.singles, **singles},
-            digest=_digest(base.digest.encode() + read_bytes(path)),
-        )
-        return with_gains(merged, read.gains)
-    except InputError as error:
-        raise error.at(where) from None
-
-
-def _override_rules(rules: Rules, read: _Overrides, where: str) -> Rules:
-    for name in read.poses:
-        if name not in rules.names:
-            raise SetError(f"unknown pose {name!r}", expected=f"one of {', '.join(rules.names)}")
-    poses = []
-    for pose in rules.poses:
-        fields = {**msgspec.structs.asdict(pose), **read.poses.get(pose.name, {})}
-        poses.append(convert(fields, Pose, f"pose {pose.name!r}"))
-    settings = {**msgspec.structs.asdict(rules.settings), **read.settings}
-    changed = convert(settings, Settings, "settings")
-    return msgspec.structs.replace(rules, poses=tuple(poses), settings=changed)
-
-
-def with_gains(base: BigramSet, gains: Mapping[str, float]) -> BigramSet:
-    """Return the set with the curves of some poses scaled; weights stay in 0..1."""
-    for name, gain in gains.items():
-        if name not in base.rules.names:
-            raise SetError(
-                f"gain for the unknown pose {name!r}", expected=", ".join(base.rules.names)
-            )
-        if not 0 <= gain <= 10:
-            raise SetError(f"gain {gain} for {name!r}", expected="0 to 10")
-    if not gains:
-        return base
-
-    def scaled(curves: Curves) -> Curves:
-        return {
-            pose: Keys(keys.times, (keys.values * gains.get(pose, 1.0)).clip(0, 1))
-            for pose, keys in curves.items()
-        }
-
-    return replace(
-        base,
-        bigrams={p: replace(b, curves=scaled(b.curves)) for p, b in base.bigrams.items()},
-        singles={label: scaled(curves) for label, curves in base.singles.items()},
-    )
+    bigrams: dict[Pair, Bigram] = {}
+    for entry in read:
+        for label in entry.pair:
+            check_label(label, classes)
+        where = f"bigram {entry.pair[0]}-{entry.pair[1]}"
+        if entry.pair in bigrams:
+            raise SetError(f"{where} stands twice", cure="remove one of the two")
+        curves = read_curves(entry.curves, where)
+        at = boundary if entry.boundary is None else entry.boundary
+        bigrams[entry.pair] = Bigram(entry.pair, curves, at, entry.word, source)
+    return bigrams
 
 
 def set_bytes(of: BigramSet, boundary: float = 0.5) -> bytes:

@@ -14,16 +14,19 @@ import numpy as np
 
 from lipwright.engines.bigram.edits import Found
 from lipwright.engines.bigram.engine import BigramEngine, Solved
+from lipwright.engines.bigram.model import Bigram
 from lipwright.engines.bigram.polyline import Line, maxima
+from lipwright.engines.bigram.spoken import own_bigram, value_alone, who_bound, who_drew, who_set
 from lipwright.engines.bigram.stages import Stages
 from lipwright.errors import InputError
 
 SEEN = 1e-6
+TOLD = 5e-4
 
 
 @dataclass(frozen=True, slots=True)
 class Origin:
-    """A bigram that has a curve at the instant asked for.
+    """A bigram that has a curve at the instant asked for, or had one before an override.
 
     Attributes
     ----------
@@ -37,6 +40,11 @@ class Origin:
         Its own curve there.
     keys : tuple of ((time, weight), (time, weight))
         The two keys, in the set's 0..1, between which the instant lies.
+    override : str
+        Which overrides made the curve, of which character, in which file; nothing where it
+        is the set's own.
+    own : float, optional
+        What the set's own curve would be there, where an override spoke.
     """
 
     pair: str
@@ -45,6 +53,8 @@ class Origin:
     end: float
     value: float
     keys: tuple[tuple[float, float], ...]
+    override: str = ""
+    own: float | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,6 +94,10 @@ class Explanation:
         The stages that changed the value, in order.
     edits : tuple of str
         Edits of this line that act on the control in this phone.
+    alone : float, optional
+        What would be exported without any overrides, where there are some.
+    set_name : str
+        The set beneath them.
     """
 
     control: str
@@ -93,23 +107,30 @@ class Explanation:
     origins: tuple[Origin, ...] = ()
     reasons: tuple[Reason, ...] = ()
     edits: tuple[str, ...] = ()
+    alone: float | None = None
+    set_name: str = ""
 
     def text(self) -> str:
         """Return the explanation as lines for a terminal."""
         lines = [f"{self.control} = {self.value:.3f} at {self.time:.3f} s, in /{self.phone}/"]
         for origin in self.origins:
-            keys = " to ".join(f"({t:g}, {v:g})" for t, v in origin.keys)
+            keys = " to ".join(f"({t:g}, {v:g})" for t, v in origin.keys) or "none"
             won = "drawn by" if origin is self.origins[0] else "   below:"
             lines.append(
                 f"  {won} {origin.pair} ({origin.source}), {origin.start:.3f} to "
                 f"{origin.end:.3f} s: {origin.value:.3f}, keys {keys}"
             )
+            if origin.override:
+                own = "no curve" if origin.own is None else f"{origin.own:.3f}"
+                lines.append(f"            {origin.override}; {self.set_name} itself: {own}")
         for edit in self.edits:
             lines.append(f"  edited: {edit}")
         for reason in self.reasons:
             lines.append(
                 f"  {reason.stage}: {reason.before:.3f} becomes {reason.after:.3f}, {reason.text}"
             )
+        if self.alone is not None and abs(self.alone - self.value) > TOLD:
+            lines.append(f"  without overrides: {self.alone:.3f}")
         return "\n".join(lines)
 
 
@@ -146,7 +167,10 @@ def why(engine: BigramEngine, solved: Solved, control: str, time: float) -> Expl
         if one.edit.pose == control and abs(time - one.phone.middle) <= _reach_of(one)
     )
     reasons = tuple(tracer.reasons(value))
-    return Explanation(control, time, tracer.phone(), value, tracer.origins(), reasons, edits)
+    origins = tracer.origins()
+    alone = value_alone(engine, solved, control, time)
+    name = (engine.of.beneath or engine.of).name
+    return Explanation(control, time, tracer.phone(), value, origins, reasons, edits, alone, name)
 
 
 def _reach_of(one: Found) -> float:
@@ -187,26 +211,36 @@ class _Tracer:
     def _origin(self, index: int, time: float) -> Origin | None:
         placed, spans = self.stages.placed, self.solved.spans
         mine = (placed.bigram == index) & (placed.pose == self.pose)
-        if not mine.any():
-            return None
         times, values = placed.times[mine], placed.values[mine]
         pair = spans.pairs[index]
         bigram = self.engine.table.bigrams[self.engine.table.rows_of([pair])[0]]
+        override = who_drew(self.engine.of, bigram, self.engine.plan.names[self.pose])
+        own = self._own(index, time) if override else None
+        if not len(times) and own is None:
+            return None
         return Origin(
             "-".join(pair),
             bigram.source,
             float(spans.first[index]),
             float(spans.last[index]),
-            float(np.interp(time, times, values, left=0, right=0)),
-            self._drawn(index, time),
+            float(np.interp(time, times, values, left=0, right=0)) if len(times) else 0.0,
+            self._drawn(bigram, self._share(index, time, bigram.boundary)),
+            override,
+            own,
         )
 
-    def _drawn(self, index: int, time: float) -> tuple[tuple[float, float], ...]:
+    def _own(self, index: int, time: float) -> float | None:
+        """What the set's own curve of the pair would be at an instant."""
+        bigram = own_bigram(self.engine.of, self.solved.spans.pairs[index])
+        keys = bigram.curves.get(self.engine.plan.names[self.pose]) if bigram else None
+        if bigram is None or keys is None:
+            return None
+        return float(keys.at(np.array([self._share(index, time, bigram.boundary)]))[0])
+
+    def _drawn(self, bigram: Bigram, share: float) -> tuple[tuple[float, float], ...]:
         """The two keys on both sides of an instant, as drawn in 0..1."""
-        pair = self.solved.spans.pairs[index]
-        bigram = self.engine.table.bigrams[self.engine.table.rows_of([pair])[0]]
-        drawn = bigram.curves[self.engine.plan.names[self.pose]].pairs()
-        share = self._share(index, time, bigram.boundary)
+        keys = bigram.curves.get(self.engine.plan.names[self.pose])
+        drawn = keys.pairs() if keys is not None else []
         before = [key for key in drawn if key[0] <= share][-1:]
         after = [key for key in drawn if key[0] > share][:1]
         return tuple(before + after)
@@ -265,12 +299,14 @@ class _Tracer:
                 room = 1 - high / threshold if ramp else threshold - high
                 rooms.append((max(room, 0.0), self.engine.plan.names[a], high, threshold))
         room, name, high, threshold = min(rooms)
-        return f"{name} is at {high:.3f} and leaves {room:.3f} (threshold {threshold:g})"
+        whose = who_bound(self.engine, name, self.engine.plan.names[self.pose])
+        return f"{name} is at {high:.3f} and leaves {room:.3f} (threshold {threshold:g}{whose})"
 
     def _limited(self, before: float, after: float) -> str:
         pose = self.engine.plan.poses[self.pose]
         verb = "rises early and falls late" if after > before else "gives up what is too fast"
-        text = f"to keep {pose.limit:g} per second it {verb}"
+        whose = who_set(self.engine, pose.name, "limit")
+        text = f"to keep {pose.limit:g} per second{whose} it {verb}"
         if pose.meets == "widen" and self.engine.rules.settings.spline == "soften":
             text += f", held by {pose.softness:g} s"
         return text
@@ -279,4 +315,5 @@ class _Tracer:
         if self.engine.rules.settings.spline != "soften":
             return f"by the {self.engine.rules.settings.spline} through the keys"
         width = self.engine.plan.poses[self.pose].softness
-        return f"by the mean over {width:g} s on either side"
+        whose = who_set(self.engine, self.engine.plan.names[self.pose], "softness")
+        return f"by the mean over {width:g} s on either side{whose}"
