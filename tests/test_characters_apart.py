@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import lipwright
-from lipwright import pipeline
+from lipwright.casting import engine_for
 from lipwright.character.character import BUILT_IN_SETS
 from lipwright.engines.bigram.set_file import DATA
 from lipwright.errors import InputError
@@ -97,7 +97,7 @@ def test_the_set_is_the_users_else_the_characters_else_the_default(
         (tmp_path / f"{name}.json").write_text(renamed, "utf-8")
 
     def used(character: Path | str, given: Path | None = None) -> str:
-        return pipeline.engine_for(given, character=character).of.name
+        return engine_for(given, character=character).of.name
 
     write_character(tmp_path / "base.json", base="head", set="its.json")
     top = write_character(tmp_path / "top.json", base="base.json")

@@ -19,6 +19,7 @@ LAYERS = [
     ("animation", "speech"),
     ("performance",),
     ("schedule", "engines", "character", "export", "evaluate"),
+    ("casting",),
     ("pipeline", "corpus"),
     ("cli",),
 ]

@@ -10,6 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from lipwright.animation import Animation
+from lipwright.errors import InputError
 from lipwright.speech import Speech
 
 
@@ -33,6 +34,74 @@ class RiggedModel:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class Picture:
+    """A picture's file.
+
+    Parameters
+    ----------
+    media : str
+        What it is, as browsers say it: ``"image/png"``, ``"image/svg+xml"``.
+    data : bytes
+        Its content.
+    drawn_by_code : bool
+        Whether it is a mouth without a face that no artist drew.
+    """
+
+    media: str
+    data: bytes
+    drawn_by_code: bool = False
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Cues:
+    """Mouth shapes that are held one after the other, on whole frames, without gaps.
+
+    Parameters
+    ----------
+    character : str
+        Whose shapes they are.
+    shapes : tuple of str
+        The shape of each cue; two neighbours differ.
+    frames : tuple of int
+        The frame at which each cue starts; the first is 0.
+    end : int
+        The frame at which the last cue ends.
+    fps : float
+        Frames per second.
+    rest : str
+        The shape that comes after the end.
+    pictures : function
+        Returns the picture of each shape; called only by formats that show them.
+    notes : tuple of str
+        What the user should know: phones that found no place for their shape.
+    """
+
+    character: str
+    shapes: tuple[str, ...]
+    frames: tuple[int, ...]
+    end: int
+    fps: float
+    rest: str
+    pictures: Callable[[], dict[str, Picture]]
+    notes: tuple[str, ...] = ()
+
+    @property
+    def duration(self) -> float:
+        """From 0 to the end of the last cue, in seconds."""
+        return self.end / self.fps
+
+    def rows(self) -> list[tuple[str, int, int]]:
+        """Return shape, first frame, and the frame after the last, of each cue."""
+        return list(zip(self.shapes, self.frames, (*self.frames[1:], self.end), strict=True))
+
+
+def _no_cues() -> Cues:
+    raise InputError(
+        "there are no mouth shapes to hold", cure="make the performance with lipwright.animate"
+    )
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class Performance:
     """An animation, what it was made from, and who plays it.
 
@@ -44,8 +113,17 @@ class Performance:
         The sound (where there is one), words and phones.
     rig : function
         Makes the :class:`RiggedModel`; called only by formats that hold a model.
+    cues : function
+        Makes the :class:`Cues`; called only by formats of pictures that are held.
+    flat : bool
+        Whether the character is one of pictures: it has no model.
+    sound_file : str
+        The name of the sound's file, for formats that name it.
     """
 
     animation: Animation
     speech: Speech
     rig: Callable[[], RiggedModel]
+    cues: Callable[[], Cues] = _no_cues
+    flat: bool = False
+    sound_file: str = ""

@@ -10,26 +10,24 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
-from functools import lru_cache, partial
+from functools import cache, lru_cache, partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from lipwright.casting import character_file, engine_for
 from lipwright.errors import CharacterError, InputError, SoundError
-from lipwright.files import file_version
 from lipwright.performance import Performance
 from lipwright.sound import Sound
 from lipwright.speech import Speech
 
 if TYPE_CHECKING:
     from lipwright.animation import Animation
-    from lipwright.character import Character, CharacterFile
+    from lipwright.character import Character
     from lipwright.character.head import Landmarks
     from lipwright.character.mesh import Part
-    from lipwright.engines.bigram import BigramEngine, BigramSet
     from lipwright.evaluate import MotionReport, Recording
 
 Progress = Callable[[float], None]
-DEFAULT_SET = "english"
 
 
 def say(
@@ -159,6 +157,11 @@ def animate(
     character: str | Path = "head",
     mapping: str | Path | None = None,
     rate: float = 60.0,
+    pictures: str | Path | None = None,
+    without: Sequence[str] = (),
+    fps: float | None = None,
+    on: int | None = None,
+    hold: str | None = None,
 ) -> Performance:
     """Return a line animated on a character.
 
@@ -180,11 +183,20 @@ def animate(
     edits : path, optional
         Corrections of this line, hung on its words and phones.
     character : str or path
-        ``"head"``, a character file, or a GLB, VRM or glTF file.
+        ``"head"``, a character file, or a GLB, VRM or glTF file; or a character of pictures:
+        ``"rhubarb"``, ``"preston_blair"``, ``"fleming_dobbs"``, or a file.
     mapping : path, optional
         A mapping file that goes before the character's own and the one found.
     rate : float
         Frames per second.
+    pictures : str or path, optional
+        The mouth shapes that formats of held shapes use for a character with a model;
+        ``"rhubarb"`` where none are given.
+    without : sequence of str
+        Mouth shapes that are not drawn.
+    fps, on, hold : float, int, str, optional
+        How mouth shapes are held, where it is not as their file says: frames per second,
+        1 for ones or 2 for twos, the shortest hold (``"2 frames"``, ``"80 ms"``).
 
     Raises
     ------
@@ -192,91 +204,32 @@ def animate(
         If a part of it is unknown or broken.
     """
     from lipwright.character import keep_character
+    from lipwright.character.pictures import choose, is_pictures
+    from lipwright.character.pictures import hold as hold_pictures
     from lipwright.engines.bigram import read_edits
 
     if engine != "bigram":
         raise InputError(f"no engine {engine!r}", expected="bigram")
     made = engine_for(bigram_set, preset, overrides, reduction, character, speech.language)
+    shapes = choose(character, pictures, mapping, without=without, fps=fps, on=on, hold=hold)
     animation = made.animate(speech, rate, read_edits(edits) if edits else ())
+    end = max(speech.duration, speech.phones.tier.end)
+    cues = cache(partial(hold_pictures, animation, shapes, end))
+    if is_pictures(character):
+        shapes.check_controls(animation.controls)
+        return Performance(animation, speech, shapes.no_model, cues, flat=True)
     actor = keep_character(character, mapping)
     if not actor.fits:
         _check(actor, animation.controls)
     report = {**animation.report, "character": actor.report()}
     named = replace(animation, report=report)
     told = replace(speech, notes=(*speech.notes, *actor.notes(animation.controls, speech)))
-    return Performance(named, told, partial(actor.rig, named))
+    return Performance(named, told, partial(actor.rig, named), cues)
 
 
 @lru_cache(maxsize=8)
 def _check(actor: Character, controls: tuple[str, ...]) -> None:
     actor.check(controls)
-
-
-def engine_for(
-    bigram_set: str | Path | None = None,
-    preset: str = "default",
-    overrides: str | Path | None = None,
-    reduction: str | Path | None = None,
-    character: str | Path = "head",
-    language: str = "",
-) -> BigramEngine:
-    """Return the engine for a set and who speaks; made once, and anew when a file changes."""
-    from lipwright.character import set_of
-
-    file = character_file(character)
-    chosen = _chosen_set(bigram_set, set_of(file, str(character)), language)
-    files = [str(path) if path else None for path in (overrides, reduction)]
-    read = (chosen, *(path for path in files if path))
-    versions = (file.files if file else (), *map(file_version, read))
-    return _engine(chosen, preset, files[0], files[1], file, versions)
-
-
-def character_file(character: str | Path | None) -> CharacterFile | None:
-    """Return a character's file; None, at once, where it is a model or a built-in one."""
-    if character is None or Path(character).suffix.lower() != ".json":
-        return None
-    from lipwright.character import file_of
-
-    return file_of(character)
-
-
-def _chosen_set(given: str | Path | None, own: str, language: str) -> str:
-    """Return the set to animate with: the user's, else the character's, else a default.
-
-    ``language`` is that of the line: one that has a set of its own is answered here.
-    """
-    if given is not None:
-        return str(given)
-    return own or DEFAULT_SET
-
-
-@lru_cache(maxsize=32)
-def _engine(
-    bigram_set: str,
-    preset: str,
-    overrides: str | None,
-    reduction: str | None,
-    file: CharacterFile | None,
-    versions: tuple[object, ...],
-) -> BigramEngine:
-    from lipwright.engines.bigram import BigramEngine, read_overrides
-
-    base = _loaded_set(bigram_set, file)
-    return BigramEngine(read_overrides(overrides, base) if overrides else base, preset, reduction)
-
-
-def _loaded_set(name: str, file: CharacterFile | None) -> BigramSet:
-    """Return a set with what a character, and each character beneath it, changes of it."""
-    from lipwright.engines.bigram import load_set, with_character
-
-    named, where = file.bigram_set if file else ("", "")
-    try:
-        base = load_set(name)
-    except InputError as error:
-        raise (error.at(f"{where}, at set") if name == named else error) from None
-    for layer in file.layers if file else ():
-        base = with_character(base, layer.name, layer.path, layer.overrides, layer.settings)
-    return base
 
 
 def save(performance: Performance, *paths: str | Path) -> None:

@@ -31,7 +31,7 @@ PRIORITY = ("open", "W", "wide", "ShCh", "FV", "PBM", *TONGUE)
 FAST = ("PBM", "FV")
 # Lips stay round from one rounded sound to the next; the jaw goes back up between vowels.
 WINDOW = {"W": 0.22, "wide": 0.18, "ShCh": 0.18}
-SOFTNESS = {"open": 0.07, "W": 0.14, "wide": 0.06, "ShCh": 0.05, "PBM": 0.012, "FV": 0.012}
+SOFTNESS = {"open": 0.07, "W": 0.10, "wide": 0.06, "ShCh": 0.05, "PBM": 0.012, "FV": 0.012}
 
 
 def rules() -> Rules:

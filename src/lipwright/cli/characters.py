@@ -43,8 +43,8 @@ def inspect(model: str, mapping: Path | None, write: Path | None, as_json: bool)
     MODEL is head, a character file (.json), or a .glb, .vrm or .gltf file. Of a character
     file it says which of its layers each thing comes from.
     """
+    from lipwright.casting import engine_for
     from lipwright.character import describe_character, inspect_character, load_character
-    from lipwright.pipeline import engine_for
 
     loaded = load_character(model, mapping=mapping)
     of = engine_for(character=model).of if loaded.file is not None else None
@@ -95,8 +95,8 @@ def new(path: Path, model: str | None, base: str | None, bigram_set: str | None)
     With --model it holds how each pose is made on the model; with --base it differs in
     nothing yet.
     """
+    from lipwright.casting import engine_for
     from lipwright.character.start_file import start_character
-    from lipwright.pipeline import engine_for
 
     if model is None and base is None:
         raise click.UsageError("give --model, --base, or both")

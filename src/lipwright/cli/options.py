@@ -58,7 +58,20 @@ animation = stack(
     ),
     click.option(
         "--character", default="head", show_default=True, metavar="WHO",
-        help="head, a character file (.json), or a .glb, .vrm or .gltf file.",
+        help="head, a character file (.json), or a .glb, .vrm or .gltf file; or mouths to cut "
+        "out: rhubarb, preston_blair, fleming_dobbs, or a file of them (.json).",
+    ),
+    click.option(
+        "--pictures", metavar="LIST",
+        help="Mouth shapes of .tsv .xml .dat for a character with a model.  [default: rhubarb]",
+    ),
+    click.option(
+        "--without", metavar="SHAPES", help="Mouth shapes that are not drawn: G,H,X.",
+    ),
+    click.option("--fps", type=float, help="Frames per second of held mouth shapes."),
+    click.option("--on", type=int, help="Hold mouth shapes on ones (1), twos (2) or threes (3)."),
+    click.option(
+        "--hold", metavar="TIME", help="The shortest hold: '2 frames', '80 ms'.",
     ),
     click.option(
         "--mapping", type=click.Path(path_type=Path), metavar="FILE",

@@ -5,11 +5,11 @@ from __future__ import annotations
 import json
 import sys
 from collections.abc import Sequence
-from pathlib import Path
 from typing import Any
 
 import click
 
+from lipwright.export import suffix_of
 from lipwright.files import STANDARD_STREAM
 from lipwright.performance import Performance
 from lipwright.speech import Speech
@@ -20,6 +20,10 @@ ABOUT = {
     ".glb": "model and animation",
     ".html": "speaking head: open it in a browser",
     ".wav": "sound",
+    ".tsv": "held mouth shapes, as Rhubarb's",
+    ".xml": "held mouth shapes, as Rhubarb's",
+    ".rhubarb.json": "held mouth shapes, as Rhubarb's",
+    ".dat": "switch data for Moho",
 }
 
 
@@ -35,8 +39,10 @@ def tell(performance: Performance, written: Sequence[str], *, as_json: bool) -> 
     print(f"{_sentence(performance.speech)}; {frames}", file=stream)
     for path in written:
         if path != STANDARD_STREAM:
-            print(f"  {path}  ({ABOUT.get(Path(path).suffix.lower(), 'written')})", file=stream)
+            print(f"  {path}  ({ABOUT.get(suffix_of(path), 'written')})", file=stream)
     notes(performance.speech)
+    for text in performance.cues().notes if performance.flat else ():
+        note(text)
     stand_ins = animation.report.get("stand_ins", [])
     if stand_ins:
         note(f"the set lacks {', '.join(stand_ins)}: made from single phones")

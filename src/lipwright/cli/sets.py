@@ -104,10 +104,10 @@ def why(
     the set says, both are shown.
     """
     from lipwright.animation import Animation
+    from lipwright.casting import engine_for
     from lipwright.cli.cast import character_of
     from lipwright.engines.bigram import read_edits
     from lipwright.engines.bigram.why import why as explain
-    from lipwright.pipeline import engine_for
 
     animation = Animation.load(line)
     if animation.engine != "bigram":

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import os
+import re
 import threading
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager, suppress
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -32,7 +34,9 @@ def _list_voices(ctx: click.Context, param: click.Parameter, value: bool) -> Non
 
 @click.command()
 @click.argument("text", metavar="TEXT")
-@options.outputs("Where to: .json .csv .glb .html .wav, or - for JSON. May be repeated.")
+@options.outputs(
+    "Where to: .json .csv .glb .html .wav .tsv .xml .rhubarb.json .dat, or -. May be repeated."
+)
 @click.option("--voice", default="en-us", show_default=True, help="Language or voice.")
 @click.option(
     "--speed", type=float, default=175.0, show_default=True, metavar="WPM", help="Words per minute."
@@ -63,13 +67,14 @@ def say(
     inside the page.
     """
     from lipwright import pipeline
+    from lipwright.casting import engine_for
 
     files = _with_sound(outputs)
     _check(files, how)
     if text == STANDARD_STREAM:
         text = decode_text(read_standard_input(), "standard input")
     of = [how[name] for name in ("bigram_set", "preset", "overrides", "reduction", "character")]
-    with _meanwhile(pipeline.engine_for, *of, voice):
+    with _meanwhile(engine_for, *of, voice):
         speech = pipeline.say(
             text, voice=voice, rate=speed, pitch=pitch, character=how["character"]
         )
@@ -93,10 +98,13 @@ def _meanwhile(work: Callable[..., object], *arguments: object) -> Iterator[None
 def _with_sound(outputs: tuple[str, ...]) -> tuple[str, ...]:
     """Add the sound beside the first output, unless someone else's sound lies there."""
     suffixes = {Path(path).suffix.lower() for path in outputs}
-    silent = [p for p in outputs if Path(p).suffix.lower() in (".json", ".csv", ".glb")]
+    from lipwright.export import sound_beside
+
+    without = (".json", ".csv", ".glb", ".tsv", ".xml", ".dat")
+    silent = [p for p in outputs if Path(p).suffix.lower() in without]
     if not silent or ".wav" in suffixes:
         return outputs
-    sound = Path(silent[0]).with_suffix(".wav")
+    sound = sound_beside(silent[0])
     if sound.exists() and not is_own_wav(read_bytes(sound)):
         raise InputError(
             "exists, and is not a sound that Lipwright made",
@@ -108,7 +116,9 @@ def _with_sound(outputs: tuple[str, ...]) -> tuple[str, ...]:
 
 @click.command()
 @options.recording
-@options.outputs("Where to: .json .csv .glb .html .wav, or - for JSON. May be repeated.")
+@options.outputs(
+    "Where to: .json .csv .glb .html .wav .tsv .xml .rhubarb.json .dat, or -. May be repeated."
+)
 @options.animation
 @options.as_json
 def animate(
@@ -124,7 +134,7 @@ def animate(
     """
     _check(outputs, how, *recording.files)
     speech = _speech(recording)
-    _animate(speech, outputs, as_json, how)
+    _animate(speech, outputs, as_json, how, Path(recording.sound).name)
 
 
 @click.command()
@@ -170,11 +180,14 @@ def read_text(path: Path) -> str:
 
 
 def _check(outputs: tuple[str, ...], how: dict[str, Any], *inputs: object) -> None:
-    from lipwright.export import check_outputs
-    from lipwright.pipeline import character_file
+    from lipwright.casting import character_file
+    from lipwright.character.pictures import is_pictures, load_pictures
+    from lipwright.export import check_outputs, suffix_of
 
     check_outputs(outputs)
-    names = ("bigram_set", "overrides", "reduction", "edits", "character", "mapping")
+    if ".glb" in map(suffix_of, outputs) and is_pictures(how["character"]):
+        load_pictures(how["character"]).no_model()
+    names = ("bigram_set", "overrides", "reduction", "edits", "character", "mapping", "pictures")
     file = character_file(how["character"])
     named = [path for path, _ in file.files] + [file.model[0]] if file else []
     _keep_inputs(outputs, (*inputs, *named, *(how[name] for name in names)))
@@ -188,11 +201,19 @@ def _keep_inputs(outputs: tuple[str, ...], inputs: Iterable[object]) -> None:
             raise InputError("would be written over its own input", where=path, cure="rename one")
 
 
-def _animate(speech: Speech, outputs: tuple[str, ...], as_json: bool, how: dict[str, Any]) -> None:
+def _animate(
+    speech: Speech,
+    outputs: tuple[str, ...],
+    as_json: bool,
+    how: dict[str, Any],
+    sound_file: str = "",
+) -> None:
     from lipwright import pipeline
     from lipwright.cli.report import tell
 
     how["rate"] = how.pop("frame_rate")
+    how["without"] = tuple(filter(None, re.split(r"[,\s]+", how["without"] or "")))
     performance = pipeline.animate(speech, **how)
+    performance = replace(performance, sound_file=sound_file)
     pipeline.save(performance, *outputs)
     tell(performance, outputs, as_json=as_json)

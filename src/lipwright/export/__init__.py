@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
+from dataclasses import replace
 from importlib import import_module
 from pathlib import Path
 
@@ -22,6 +23,10 @@ FORMATS = {
     ".glb": "glb",
     ".html": "html",
     ".wav": "wav_sound",
+    ".tsv": "rhubarb_tsv",
+    ".xml": "rhubarb_xml",
+    ".rhubarb.json": "rhubarb_json",
+    ".dat": "moho_dat",
 }
 """Each suffix and the module of this package that writes it."""
 
@@ -60,7 +65,7 @@ def check_outputs(paths: Sequence[str | Path], formats: Sequence[str] = tuple(FO
     """
     seen: set[str] = set()
     for path in paths:
-        suffix = _suffix(path)
+        suffix = suffix_of(path, formats)
         if suffix not in formats:
             raise _unknown(suffix, str(path), formats)
         is_stream = str(path) == STANDARD_STREAM
@@ -97,12 +102,27 @@ def save(performance: Performance, *paths: str | Path) -> None:
     ``save(performance, "line.json", "line.csv", "line.glb")``
     """
     check_outputs(paths)
-    encoded = {suffix: encode(performance, suffix) for suffix in dict.fromkeys(map(_suffix, paths))}
-    write_all((path, encoded[_suffix(path)]) for path in paths)
+    sounds = [Path(path).name for path in paths if suffix_of(path) == ".wav"]
+    if sounds and not performance.sound_file:
+        performance = replace(performance, sound_file=sounds[0])
+    suffixes = dict.fromkeys(map(suffix_of, paths))
+    encoded = {suffix: encode(performance, suffix) for suffix in suffixes}
+    write_all((path, encoded[suffix_of(path)]) for path in paths)
 
 
-def _suffix(path: str | Path) -> str:
-    return ".json" if str(path) == STANDARD_STREAM else Path(path).suffix.lower()
+def suffix_of(path: str | Path, formats: Sequence[str] = tuple(FORMATS)) -> str:
+    """Return the suffix that picks a file's format: ``.rhubarb.json`` before ``.json``."""
+    if str(path) == STANDARD_STREAM:
+        return ".json"
+    name = Path(path).name.lower()
+    double = [each for each in formats if each.count(".") > 1 and name.endswith(each)]
+    return double[0] if double else Path(path).suffix.lower()
+
+
+def sound_beside(path: str | Path) -> Path:
+    """Return where the sound of an output lies that holds none: ``line.wav`` by ``line.tsv``."""
+    name = Path(path).name
+    return Path(path).with_name(name[: len(name) - len(suffix_of(path))] + ".wav")
 
 
 def _unknown(suffix: str, where: str, formats: Sequence[str] = tuple(FORMATS)) -> InputError:

@@ -1,5 +1,7 @@
 """A page of its own: one HTML file that plays a performance in any browser, from disk.
 
+A character of pictures has a page of its own: :mod:`lipwright.export.pictures_page`.
+
 It holds the player (the client in ``web/``, built into ``player.html`` beside this module),
 the animation, the model and the sound. It asks for nothing else: no server, no network.
 
@@ -59,6 +61,10 @@ def encode(performance: Performance) -> bytes:
     LipwrightError
         If the player has not been built.
     """
+    if performance.flat:
+        from lipwright.export.pictures_page import encode as encode_pictures
+
+        return encode_pictures(performance)
     before, after = _player()
     rigged = performance.rig()
     model = parse_glb(rigged.glb, rigged.name)
@@ -72,13 +78,13 @@ def encode(performance: Performance) -> bytes:
     }
     glb = _light(model, held.union(channels.controls)).to_glb()
     blocks = [
-        _block("performance", "application/json", _json(content)),
-        _block("model", "model/gltf-binary;base64", _base64(glb)),
+        json_block("performance", content),
+        block("model", "model/gltf-binary;base64", _base64(glb)),
     ]
     sound = performance.speech.sound
     if sound is not None and len(sound.samples):
-        wav = _playable(sound).wav_bytes()
-        blocks.append(_block("sound", "audio/wav;base64", _base64(wav)))
+        wav = playable(sound).wav_bytes()
+        blocks.append(block("sound", "audio/wav;base64", _base64(wav)))
     return "\n".join([before, *blocks, after]).encode()
 
 
@@ -154,21 +160,23 @@ def _rows(tier: Tier) -> list[tuple[str, float, float]]:
     return [(each.label, each.start, each.end) for each in tier]
 
 
-def _json(value: Any) -> str:
-    """Return JSON that cannot end the block it stands in, whatever a label holds."""
+def json_block(name: str, value: Any) -> str:
+    """Return a block of JSON that cannot end it, whatever a label holds."""
     text = json.dumps(value, separators=(",", ":"))
-    return text.replace("<", "\\u003c").replace(">", "\\u003e").replace("&", "\\u0026")
+    text = text.replace("<", "\\u003c").replace(">", "\\u003e").replace("&", "\\u0026")
+    return block(name, "application/json", text)
 
 
 def _base64(data: bytes) -> str:
     return base64.b64encode(data).decode("ascii")
 
 
-def _block(name: str, kind: str, text: str) -> str:
+def block(name: str, kind: str, text: str) -> str:
+    """Return data that the page's script reads."""
     return f'<script type="{kind}" id="lipwright-{name}">{text}</script>'
 
 
-def _playable(sound: Sound) -> Sound:
+def playable(sound: Sound) -> Sound:
     """Return the sound at a rate that browsers play, and that keeps a long page small."""
     highest = _LONG_RATE if sound.duration > _LONG else _HIGHEST_RATE
     return sound.resampled(min(max(sound.rate, _LOWEST_RATE), highest))

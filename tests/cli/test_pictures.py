@@ -1,0 +1,82 @@
+"""Characters of pictures from the command line."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+from lipwright.cli import main
+from tests.cli.test_bad_input import fails
+
+PETER = "Peter Piper picked a peck of pickled peppers."
+
+
+def test_a_line_for_every_consumer(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    names = ("peter.tsv", "peter.xml", "peter.dat", "peter.rhubarb.json", "peter.html")
+    outputs = [part for name in names for part in ("-o", str(tmp_path / name))]
+    assert main(["say", PETER, "--character", "rhubarb", "--on", "2", *outputs]) == 0
+    assert {path.name for path in tmp_path.iterdir()} == {*names, "peter.wav"}
+    assert "Moho" in capsys.readouterr().out
+    cues = json.loads((tmp_path / "peter.rhubarb.json").read_bytes())
+    assert cues["metadata"]["soundFile"] == "peter.wav"
+    # The lips close for each of the eight p.
+    assert sum(cue["value"] == "A" for cue in cues["mouthCues"]) == 8
+    switches = (tmp_path / "peter.dat").read_text().splitlines()
+    assert switches[0] == "MohoSwitch1"
+    assert all(int(row.split()[0]) % 2 == 1 for row in switches[1:])
+    table = (tmp_path / "peter.tsv").read_text().splitlines()
+    assert [row.split()[1] for row in table] == [row.split()[1] for row in switches[1:]]
+
+
+def test_a_head_is_held_too(line_wav: Path, tmp_path: Path) -> None:
+    arguments = ["animate", str(line_wav), "--text", "She had your dark suit in greasy wash water"]
+    arguments += ["--pictures", "preston_blair", "--without", "WQ,L", "--fps", "12", "-o"]
+    assert main([*arguments, str(tmp_path / "a.rhubarb.json")]) == 0
+    cues = json.loads((tmp_path / "a.rhubarb.json").read_bytes())
+    assert cues["metadata"]["soundFile"] == line_wav.name
+    shapes = {cue["value"] for cue in cues["mouthCues"]}
+    assert {"AI", "etc", "rest"} <= shapes
+    assert not shapes & {"WQ", "L"}
+
+
+BAD = {
+    "no model": (["--character", "rhubarb", "-o", "a.glb"], "pictures has no model"),
+    "a mapping": (["--character", "rhubarb", "--mapping", "m.json"], "takes no mapping"),
+    "two lists": (["--character", "rhubarb", "--pictures", "rhubarb"], "takes no pictures"),
+    "unknown list": (["--pictures", "rubarb"], "no mouth shapes 'rubarb'"),
+    "unknown shape": (["--without", "Q"], "no shape 'Q'; expected one of A B C"),
+    "no stand-in": (["--without", "A"], "'A' is not drawn, and nothing stands in"),
+    "fps 0": (["--fps", "0"], "0 frames per second; expected 1 to 100"),
+    "fps nan": (["--fps", "nan"], "nan frames per second"),
+    "on 0": (["--on", "0"], "1 for ones, 2 for twos"),
+    "hold 0": (["--hold", "0 frames"], "more than 0"),
+    "hold -1": (["--hold", "-1 frames"], "as '2 frames' or '80 ms'"),
+    "hold 2": (["--hold", "2"], "as '2 frames' or '80 ms'"),
+}
+
+
+@pytest.mark.parametrize("name", BAD)
+def test_bad_wishes_are_one_line(
+    name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    arguments, words = BAD[name]
+    outputs = [] if "-o" in arguments else ["-o", "a.tsv"]
+    assert words in fails(capsys, tmp_path, "say", "Hi", *arguments, *outputs)
+
+
+def test_a_model_is_refused_before_the_work(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    arguments = ("animate", tmp_path / "none.wav", "--character", "rhubarb")
+    message = fails(capsys, tmp_path, *arguments, "-o", tmp_path / "a.glb")
+    assert "pictures has no model" in message
+
+
+def test_a_file_that_is_read_is_not_written_over(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    own = tmp_path / "own.json"
+    own.write_text("{}")
+    arguments = ("say", "Hi", "--pictures", own, "-o", own)
+    assert "over its own input" in fails(capsys, tmp_path, *arguments)
