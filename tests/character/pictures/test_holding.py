@@ -146,7 +146,7 @@ def test_a_long_silence_rests_whatever_the_curves_do(pause: float, rests: bool) 
 
 def test_a_mouth_relaxes_in_a_short_pause() -> None:
     rows = (("ah", 0.0, 0.5), ("sil", 0.5, 0.79), ("ah", 0.79, 1.2))
-    between = stiff(rows, open=0.26, W=0.14, wide=0.1)  # a little nearer to C than to B
+    between = stiff(rows, open=0.31, W=0.05, wide=0.03)  # a little nearer to C than to B
     assert "B" in shown(hold(between, RHUBARB, 1.2), 0.5, 0.79)
     tense = replace(RHUBARB, relax={})
     assert hold(between, tense, 1.2).shapes == ("C",)
