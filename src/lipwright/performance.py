@@ -7,11 +7,34 @@ that characters and exporters need not know each other.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from lipwright.animation import Animation
 from lipwright.errors import InputError
 from lipwright.speech import Speech
+
+
+@dataclass(frozen=True, slots=True)
+class JointTurn:
+    """How a channel turns a joint: a jaw bone instead of a morph target.
+
+    Parameters
+    ----------
+    node : int
+        The joint's place among the model's nodes.
+    name : str
+        Its name.
+    axis : tuple of 3 float
+        What it turns about, of unit length, in the joint's own space at rest; by the right
+        hand.
+    degrees : float
+        How far it turns when the channel is 1.
+    """
+
+    node: int
+    name: str
+    axis: tuple[float, float, float]
+    degrees: float
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -25,12 +48,16 @@ class RiggedModel:
     glb : bytes
         The model as a GLB file, without the new animation.
     channels : Animation
-        The rig's own channels over time: its controls are names of morph targets.
+        The rig's own channels over time: its controls are names of morph targets, and of
+        what turns joints.
+    joints : dict of str to JointTurn
+        The channels that turn joints. The joint's rotation is that at rest, then the turn.
     """
 
     name: str
     glb: bytes
     channels: Animation
+    joints: dict[str, JointTurn] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -9,10 +9,12 @@ from typing import Any
 from hypothesis import given
 from hypothesis import strategies as st
 
+from lipwright.character.calibration import calibrate
 from lipwright.character.fitting import fit
 from lipwright.character.rig import read_rig
 from lipwright.errors import InputError
 from lipwright.gltf import Gltf, parse_glb, read_accessor
+from tests.character.sheets import jawed, widened
 from tests.models import model
 
 VRM: dict[str, Any] = {
@@ -20,6 +22,7 @@ VRM: dict[str, Any] = {
     "VRMC_vrm": {"expressions": {"preset": {"aa": {"morphTargetBinds": [{"node": 0}]}}}},
 }
 BASE = model(("jawOpen", "mouthPucker"), extensions=VRM, skins=[{"joints": [0]}])
+JAWED = jawed({"mouthPucker": widened(-0.4)})
 GLB = BASE.to_glb()
 OTHERS: st.SearchStrategy[object] = st.sampled_from(
     [None, -1, 0, 7, 1e9, "x", "", [], {}, [1], ["x"], [[]], [{}], {"x": 1}]
@@ -40,7 +43,8 @@ def use(data: bytes) -> str:
     """Do what making a character of a file does, and read all of it; return the error."""
     try:
         made = parse_glb(data)
-        fit(read_rig(made))
+        rig = read_rig(made)
+        calibrate(rig, fit(rig))
         for index in range(len(made.items("accessors"))):
             read_accessor(made, index)
     except InputError as error:
@@ -56,6 +60,16 @@ def test_any_value_may_be_wrong(path: tuple[Any, ...], other: object) -> None:
         holder = holder[key]
     holder[path[-1]] = other
     assert "\n" not in use(Gltf(document, BASE.binary).to_glb())
+
+
+@given(path=st.sampled_from(sorted(places(JAWED.json), key=repr)), other=OTHERS)
+def test_any_value_of_a_skinned_jaw_may_be_wrong(path: tuple[Any, ...], other: object) -> None:
+    document = copy.deepcopy(JAWED.json)
+    holder = document
+    for key in path[:-1]:
+        holder = holder[key]
+    holder[path[-1]] = other
+    assert "\n" not in use(Gltf(document, JAWED.binary).to_glb())
 
 
 @given(length=st.integers(0, len(GLB) - 1))

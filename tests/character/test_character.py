@@ -60,8 +60,11 @@ JAW_BONE = model(
     ("made", "message"),
     [
         (NO_MESH, "holds no mesh; expected a head to animate"),
-        (NO_MORPHS, "has no morph targets; expected a head with mouth shapes.*blend shapes"),
-        (JAW_BONE, r"has no morph targets \(its joint 'Bip01 Jaw' is not driven yet\)"),
+        (
+            NO_MORPHS,
+            "has no morph targets and no jaw that turns; expected a head with.*blend shapes",
+        ),
+        (JAW_BONE, r"no jaw that turns \(its joint 'Bip01 Jaw' carries no vertices\)"),
     ],
 )
 def test_a_model_that_cannot_move_a_mouth_is_refused(

@@ -10,12 +10,14 @@ import numpy as np
 import pytest
 
 from lipwright.animation import Animation
+from lipwright.character.builtin import to_gltf
 from lipwright.character.fitting import EXACT, MISSING, PARTLY, STAND_IN, Fitting, fit
-from lipwright.character.mapping import Mapping, read_mapping
+from lipwright.character.mapping import JointChannel, Mapping, read_mapping
 from lipwright.character.rig import Rig, read_rig
 from lipwright.character.vocabulary import POSES, vocabularies
 from lipwright.errors import CharacterError, FileFormatError
-from tests.models import model
+from lipwright.gltf import Gltf
+from tests.models import model, square
 
 ARKIT = [
     *("jawOpen", "mouthClose", "mouthFunnel", "mouthPucker", "mouthRollLower", "mouthRollUpper"),
@@ -53,6 +55,18 @@ def driven(fitting: Fitting, **controls: float) -> dict[str, float]:
         (["あ", "い", "う", "え", "お", "まばたき"], "vrm0"),
         (["mouthOpen", "mouthSmile"], "arkit"),
         (["eyeWide_L", "browUp", "smirk"], ""),
+        ([f"mouth_{shape}" for shape in "ABCDEFGHX"], "rhubarb"),
+        ([f"Mouth.{shape}" for shape in "ABCDEF"], "rhubarb"),
+        (["AI", "O", "E", "U", "etc", "L", "WQ", "MBP", "FV", "rest"], "preston_blair"),
+        (["MBP", "NLTDR", "FV", "TH", "GK", "SH", "O", "EHSZ", "AA", "IY"], "fleming_dobbs"),
+        (["AE", "Ah", "B_M_P", "Ch_J", "EE", "F_V", "Oh", "S_Z", "Th", "W_OO"], "reallusion15"),
+        (
+            [f"CC_Base_Body.V_{shape}" for shape in ("Open", "Explosive", "Dental_Lip", "Wide")],
+            "cc4",
+        ),
+        ([f"vrc.v_{name.lower()}" for name in OCULUS], "oculus15"),
+        ([f"Outfit_{letter}" for letter in "ABCDEFX"], ""),
+        ([f"Toggle_{letter}" for letter in "AIUEO"], ""),
     ],
 )
 def test_the_vocabulary_is_found(targets: list[str], vocabulary: str) -> None:
@@ -69,7 +83,10 @@ def test_every_vocabulary_knows_every_pose(vocabulary: Mapping) -> None:
         assert fitted.status == (EXACT if vocabulary.controls[control] else MISSING)
 
 
-@pytest.mark.parametrize("name", ["arkit", "oculus15", "vrm0", "vrm1"])
+SPEAKING = [vocabulary.name for vocabulary in vocabularies() if vocabulary.name != "facefx"]
+
+
+@pytest.mark.parametrize("name", SPEAKING)
 def test_a_closure_shuts_what_a_vowel_opens(name: str) -> None:
     (vocabulary,) = (known for known in vocabularies() if known.name == name)
     fitting = fit(rig(*vocabulary.channels))
@@ -126,6 +143,40 @@ def test_what_is_missing_is_said_and_stood_in_for() -> None:
     assert status["tBack"] == MISSING
 
 
+@pytest.mark.parametrize(
+    "targets", [["jawOpen"], ["jawOpen", "mouthClose"], ["Mouth Open"], ["mouth_A"], ["viseme_aa"]]
+)
+def test_a_rig_that_can_only_open_still_speaks_and_closes(targets: list[str]) -> None:
+    fitting = fit(rig(*targets))
+    status = {control: fitted.status for control, fitted in fitting.controls.items()}
+    assert status["open"] in (EXACT, PARTLY)
+    assert status["W"] == status["PBM"] == STAND_IN
+    assert status["FV"] in (STAND_IN, PARTLY)
+    assert status["tRoof"] == MISSING
+    assert "instead of" in fitting.controls["W"].note
+    assert driven(fitting, open=1, PBM=0)[targets[0]] > 0.69
+    assert driven(fitting, open=1, PBM=1)[targets[0]] == 0
+    assert 0 < driven(fitting, open=0.5, W=1)[targets[0]] < driven(fitting, open=0.5)[targets[0]]
+
+
+def test_a_rig_of_rhubarbs_basic_shapes_closes_with_its_own() -> None:
+    fitting = fit(rig(*(f"mouth_{shape}" for shape in "ABCDEF")))
+    assert driven(fitting, open=0.3, PBM=1)["mouth_A"] == 1
+    assert driven(fitting, open=0.3, PBM=1)["mouth_D"] == 0
+    assert fitting.controls["FV"].status == STAND_IN
+    assert fitting.controls["FV"].missing == ("G",)
+
+
+def test_vrm_targets_on_several_meshes_move_together() -> None:
+    parts = [square("Face", ["A"]), square("Teeth", ["Fcl_A", "A2"])]
+    binds = [{"mesh": 0, "index": 0, "weight": 100}, {"mesh": 1, "index": 1, "weight": 50}]
+    groups = [{"presetName": "a", "binds": binds}]
+    vrm = {"extensions": {"VRM": {"blendShapeMaster": {"blendShapeGroups": groups}}}}
+    made = to_gltf(parts, "Head")
+    fitting = fit(read_rig(Gltf({**made.json, **vrm}, made.binary)))
+    assert fitting.weights_of("open") == {"A": 1.0, "A2": 0.5}
+
+
 def test_a_rig_that_nothing_moves_is_an_error_that_lists_its_names() -> None:
     with pytest.raises(CharacterError, match=r"none of the controls \(open\).*\(smirk, frown\)"):
         fit(rig("smirk", "frown")).drive(frames(open=1))
@@ -170,11 +221,21 @@ def test_a_mapping_is_written_a_row_per_line_and_reads_back(tmp_path: Path) -> N
         limits={"jawOpen": (0, 0.9)},
         notes={"tBack": 'no "tongue"'},
         about="for a test",
+        joints={"Jaw": JointChannel("Bip Jaw", (0.0, 0.6, -0.8), 18), "Chin": JointChannel()},
     )
     path = tmp_path / "mine.json"
     path.write_bytes(mapping.to_bytes())
     assert read_mapping(path) == mapping
     assert '    "open": {"jawOpen": 0.7, "mund.auf_ö": 0.25},\n' in path.read_text("utf-8")
+
+
+def test_the_documented_mapping_can_be_read(tmp_path: Path) -> None:
+    page = (Path(__file__).parents[2] / "docs" / "characters.md").read_text("utf-8")
+    path = tmp_path / "hero.json"
+    path.write_text(page.split("```json\n")[1].split("```")[0])
+    read = read_mapping(path)
+    assert read.joints == {"Jaw": JointChannel("Bip01_Jaw", (0.0, 0.0, 1.0), 18)}
+    assert read.gains == {"open": 0.9}
 
 
 def document(**changes: Any) -> dict[str, Any]:
@@ -199,6 +260,21 @@ def document(**changes: Any) -> dict[str, Any]:
         (json.dumps(document()).replace(": 1}}", ": 1e999}}"), "the number 1e999; expected finite"),
         (json.dumps(document(gains={"open": -1})), r"gains.open: the gain -1.0; expected 0 or"),
         (json.dumps(document(limits={"jawOpen": [1, 0]})), "limits.jawOpen: the limits 1.0 to 0"),
+        (
+            json.dumps(document(joints={"Jaw": {"axis": [0, 0, 0]}})),
+            "joints.Jaw: the axis has no direction; expected one such as",
+        ),
+        (
+            json.dumps(document(joints={"Jaw": {"axis": [1, 0]}})),
+            r"at joints\[...\].axis: Expected `array` of length 3, got 2",
+        ),
+        (
+            json.dumps(document(joints={"Jaw": {"axis": [1, 0, 9]}})).replace("9", "1e999"),
+            "the number 1e999; expected finite",
+        ),
+        (json.dumps(document(joints={"Jaw": {"degrees": 0}})), "joints.Jaw: 0 degrees; expected"),
+        (json.dumps(document(joints={"Jaw": {"degrees": 200}})), "200 degrees; .* at most 90"),
+        (json.dumps(document(joints={"Jaw": {"bone": "x"}})), "unknown field `bone`"),
         ('{"format": "lipwright/mapping", "gains": {"open": NaN}}', "the number NaN"),
     ],
 )

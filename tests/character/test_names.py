@@ -42,6 +42,16 @@ SPELLINGS = [
     ("Fcl_MTH_A", "A"),
     ("あ", "A"),
     ("Mouth_wide", "wide"),
+    ("CC_Base_Body.A14_Jaw_Open", "jawOpen"),
+    ("head_lod0_mesh__jaw_open", "jawOpen"),
+    ("vrc.v_aa", "aa"),
+    ("V_AA", "aa"),
+    ("Mouth_A", "A"),
+    ("mouth_shape_A", "A"),
+    ("mouth_shape_PBM", "PBM"),
+    ("Face.M_F00_000_00_Fcl_MTH_A", "A"),
+    ("blendShape1.a", "A"),
+    ("A", "A"),
 ]
 
 
@@ -51,7 +61,12 @@ def test_spellings(spelled: str, meant: str) -> None:
 
 
 @pytest.mark.parametrize(
-    "other", ["", "_", "jaw", "open", "eyeWide_L", "eye_wide", "A_pose_body", "jawOpener", "mouth"]
+    "other",
+    [
+        *("", "_", "jaw", "open", "eyeWide_L", "eye_wide", "A_pose_body", "jawOpener", "mouth"),
+        *("Outfit_A", "Toggle_A", "hair_a", "Body_A", "mouth_smirk_A", "A14", "nose_wide"),
+        "aa_battery_cover",
+    ],
 )
 def test_other_names_are_left_alone(other: str) -> None:
     assert match_names([other], KNOWN) == {}

@@ -10,7 +10,8 @@ import pytest
 
 from lipwright.animation import Animation
 from lipwright.character.builtin import to_gltf
-from lipwright.character.character import load_character
+from lipwright.character.character import Character, load_character
+from lipwright.character.skeleton import local_matrix, turned, world_matrices
 from lipwright.character.vocabulary import POSES
 from lipwright.errors import CharacterError, InputError
 from lipwright.export.glb import encode
@@ -19,6 +20,7 @@ from lipwright.performance import Performance, RiggedModel
 from lipwright.phones import PhoneTrack
 from lipwright.speech import Speech
 from lipwright.timeline import Tier
+from tests.character.sheets import jawed, widened
 from tests.export.validator import issues
 from tests.models import model, square
 
@@ -164,8 +166,58 @@ def test_the_scanned_head_is_animated_and_flawless(tmp_path: Path) -> None:
     assert np.abs(found - channels.control("jawOpen")).max() < 1e-4
 
 
+QUARTER = 0.5**0.5
+TURNED = {"rotation": [0, 0, QUARTER, QUARTER]}
+MATRIX = {"matrix": [0, 2, 0, 0, -2, 0, 0, 0, 0, 0, 2, 0, 0, 0.02, -0.07, 1]}
+
+
+def jaw_line(joint: dict[str, Any]) -> tuple[Gltf, Gltf, Animation]:
+    """Return a model with a jaw joint that stands so, the written one, and the line."""
+    base = jawed({"mouthPucker": widened(-0.4)}, joint)
+    if "matrix" in joint:
+        for key in ("translation", "rotation", "scale"):
+            base.json["nodes"][3].pop(key, None)
+    animation = line(POSES, 40, -0.2)
+    character = Character("face", lambda: base)
+    speech = Speech(animation.phones)
+    made = encode(Performance(animation, speech, lambda: character.rig(animation)))
+    return base, parse_glb(made), character.rig(animation).channels
+
+
+@pytest.mark.parametrize("joint", [{}, TURNED, MATRIX])
+def test_a_joint_turns_away_from_its_rest(joint: dict[str, Any]) -> None:
+    base, made, channels = jaw_line(joint)
+    animation = made.json["animations"][0]
+    (channel,) = (c for c in animation["channels"] if c["target"]["path"] == "rotation")
+    assert channel["target"]["node"] == 3
+    sampler = animation["samplers"][channel["sampler"]]
+    turns = read_accessor(made, sampler["output"]).astype(np.float64)
+    assert np.abs(np.linalg.norm(turns, axis=1) - 1).max() < 1e-6
+    rest = world_matrices(base)[3]
+    assert np.abs(world_matrices(made)[3] - rest).max() < 1e-6
+    across = np.linalg.inv(rest[:3, :3]) @ (1.0, 0.0, 0.0)
+    for frame in (0, 11, 39):
+        angle = np.radians(20.0 * channels.control("Jaw")[frame])
+        expected = (
+            local_matrix(base.json["nodes"][3])[:3, :3]
+            @ turned(np.eye(3), across / np.linalg.norm(across), angle).T
+        )
+        node = {**made.json["nodes"][3], "rotation": turns[frame].tolist()}
+        assert np.abs(local_matrix(node)[:3, :3] - expected).max() < 1e-5
+    assert "matrix" not in made.json["nodes"][3]
+
+
+@pytest.mark.parametrize("joint", [TURNED, MATRIX])
+def test_the_validator_finds_nothing_in_a_turning_jaw(
+    joint: dict[str, Any], tmp_path: Path
+) -> None:
+    assert issues(jaw_line(joint)[1].to_glb(), tmp_path) == []
+
+
 def test_nothing_to_write_is_an_error() -> None:
     with pytest.raises(InputError, match="face: no frames"):
         written(model(), line(frames=0))
-    with pytest.raises(CharacterError, match="face: no morph target of it is moved by wiggle"):
+    with pytest.raises(
+        CharacterError, match="face: no morph target or joint of it is moved by wiggle"
+    ):
         written(model(), line(("wiggle",)))

@@ -9,10 +9,12 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Browser
 
+from lipwright.character.character import Character
 from lipwright.export import html
 from lipwright.performance import Performance
 from lipwright.phones import PhoneTrack
 from lipwright.timeline import Tier
+from tests.character.sheets import jawed
 from tests.chromium import Opened, chromium, opened
 from tests.export.tiny_face import GAP, pop
 
@@ -301,3 +303,28 @@ def test_the_page_asks_for_no_other_file(page: Opened) -> None:
     until(page, "lipwright.time() > 0.1")
     asked = [url for url in page.requests if not url.startswith(("data:", "blob:"))]
     assert [url.rpartition("/")[2] for url in asked] == ["pop.html"]
+
+
+def test_a_jaw_joint_turns_on_the_page(browser: Browser, folder: Path) -> None:
+    base = pop()
+    made = jawed({}, {"rotation": [0, 0, 0.5**0.5, 0.5**0.5]})
+    character = Character("face", lambda: made)
+    spoken = replace(base, rig=lambda: character.rig(base.animation))
+    with opened(browser, write(folder / "jaw.html", spoken)) as page:
+        page.ask("lipwright.ready")
+        page.at(P)
+        closed = page.heights("Face")
+        page.at(AA)
+        gain = character.fit().gains["open"]
+        assert page.ask("lipwright.morphs()")["Jaw"] == pytest.approx(gain, abs=1e-3)
+        moved = [before - after for before, after in zip(closed, page.heights("Face"), strict=True)]
+        half = len(moved) // 2
+        middle = half + 20
+        assert max(map(abs, moved[:half])) < 1e-6
+        assert moved[middle] == pytest.approx(max(moved), rel=0.05)
+        mouth = character.calibration().mouth
+        assert mouth is not None
+        gap = mouth.stand(character.fit().values({"open": 1.0})).widest * mouth.width
+        assert moved[middle] == pytest.approx(gap, rel=0.05)
+        page.ask("lipwright.setView('mouth')")
+        assert page.complaints == []

@@ -20,7 +20,7 @@ export interface Lipwright {
   setView(name: string): void;
   /** Whether the eyes blink of themselves. */
   setIdle(on: boolean): void;
-  /** The weight of each morph target of the model as it is drawn now. */
+  /** The value of each morph target and each turned joint as they are drawn now. */
   morphs(): Record<string, number>;
   /** The vertices of each mesh as they are drawn now: x, y, z after each other, in the world. */
   positions(): Record<string, number[]>;

@@ -2,6 +2,7 @@
 
 import { curves, endOf, type Curves } from "./curves.ts";
 import type { Range } from "./clock.ts";
+import type { Turn } from "./model.ts";
 import type { Span } from "./spans.ts";
 
 type Row = [string, number, number];
@@ -22,6 +23,8 @@ export interface Content {
   /** Whether the model looks along -z, as those of VRM 0 do. */
   backwards: boolean;
   channels: { names: string[]; rate: number; start: number; frames: number[][] };
+  /** The channels that turn joints. */
+  joints: Record<string, Turn>;
 }
 
 export interface Performance {

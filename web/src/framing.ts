@@ -22,12 +22,21 @@ const FILLED = 0.83;
 /** Share of the greatest squared displacement that the chin surely has, and the neck has not. */
 const MUCH = 0.3;
 
-export function framing(model: Object3D, meshes: Mesh[], used: string[]): Framing {
+/** For each mesh that a turning joint takes along, the squared displacement of each vertex. */
+export type Turned = Map<Mesh, Float64Array>;
+
+export function framing(
+  model: Object3D,
+  morphed: Mesh[],
+  used: string[],
+  turned: Turned = new Map(),
+): Framing {
   model.updateMatrixWorld(true);
+  const meshes = [...new Set([...morphed, ...turned.keys()])];
   const box = new Box3().setFromObject(model);
   const size = box.getSize(new Vector3());
   const lips = used.filter((name) => LIPS.test(name));
-  const moved = spread(meshes, lips.length ? lips : used);
+  const moved = spread(meshes, lips.length ? lips : used, lips.length ? new Map() : turned);
   if (!moved) {
     const whole = frameOf(box);
     return { head: whole, mouth: whole };
@@ -36,7 +45,7 @@ export function framing(model: Object3D, meshes: Mesh[], used: string[]): Framin
   // The lips are in front of most of what they take along.
   moved.mean.z += moved.deviation.z;
   const mouth = { centre: moved.mean, halfWidth: 1.75 * half, halfHeight: 1.75 * half };
-  const head = headOf(model, meshes, used, moved.mean.y - 1.8 * half);
+  const head = headOf(model, meshes, used, turned, moved.mean.y - 1.8 * half);
   // Of a figure's height the head is a small part; of a face alone the chin may not move.
   const top = size.y > 30 * half ? moved.mean.y + 9 * half : head.max.y;
   head.max.y = Math.min(head.max.y, top);
@@ -44,19 +53,21 @@ export function framing(model: Object3D, meshes: Mesh[], used: string[]): Framin
 }
 
 /** What of a model lies above its chin: the lowest that moves much with the mouth, or `below`. */
-function headOf(model: Object3D, meshes: Mesh[], used: string[], below: number): Box3 {
-  const moves = meshes.map((mesh) => displacement(mesh, used));
+function headOf(
+  model: Object3D,
+  meshes: Mesh[],
+  used: string[],
+  turned: Turned,
+  below: number,
+): Box3 {
+  const moves = meshes.map((mesh) => displacement(mesh, used, turned));
   const most = moves.reduce((high, weights) => weights.reduce((a, b) => Math.max(a, b), high), 0);
   const place = new Vector3();
   let chin = below;
   meshes.forEach((mesh, number) => {
-    const rest = mesh.geometry.getAttribute("position");
     moves[number].forEach((weight, index) => {
       if (weight < MUCH * most) return;
-      chin = Math.min(
-        chin,
-        place.fromBufferAttribute(rest, index).applyMatrix4(mesh.matrixWorld).y,
-      );
+      chin = Math.min(chin, mesh.getVertexPosition(index, place).applyMatrix4(mesh.matrixWorld).y);
     });
   });
   const head = new Box3();
@@ -64,7 +75,7 @@ function headOf(model: Object3D, meshes: Mesh[], used: string[], below: number):
     if (!(object instanceof Mesh)) return;
     const rest = object.geometry.getAttribute("position");
     for (let index = 0; index < rest.count; index++) {
-      place.fromBufferAttribute(rest, index).applyMatrix4(object.matrixWorld);
+      object.getVertexPosition(index, place).applyMatrix4(object.matrixWorld);
       if (place.y >= chin) head.expandByPoint(place);
     }
   });
@@ -84,17 +95,20 @@ function frameOf(box: Box3): Frame {
 }
 
 /** Mean and deviation of the vertices' places, weighted by the square of how far they move. */
-function spread(meshes: Mesh[], names: string[]): { mean: Vector3; deviation: Vector3 } | null {
+function spread(
+  meshes: Mesh[],
+  names: string[],
+  turned: Turned,
+): { mean: Vector3; deviation: Vector3 } | null {
   const mean = new Vector3();
   const square = new Vector3();
   const place = new Vector3();
   let total = 0;
   for (const mesh of meshes) {
-    const weights = displacement(mesh, names);
-    const rest = mesh.geometry.getAttribute("position");
+    const weights = displacement(mesh, names, turned);
     weights.forEach((weight, index) => {
       if (weight === 0) return;
-      place.fromBufferAttribute(rest, index).applyMatrix4(mesh.matrixWorld);
+      mesh.getVertexPosition(index, place).applyMatrix4(mesh.matrixWorld);
       total += weight;
       mean.addScaledVector(place, weight);
       square.addScaledVector(place.clone().multiply(place), weight);
@@ -107,10 +121,10 @@ function spread(meshes: Mesh[], names: string[]): { mean: Vector3; deviation: Ve
   return { mean, deviation: new Vector3(root(square.x), root(square.y), root(square.z)) };
 }
 
-function displacement(mesh: Mesh, names: string[]): Float64Array {
+function displacement(mesh: Mesh, names: string[], turned: Turned): Float64Array {
   const geometry = mesh.geometry;
   const rest = geometry.getAttribute("position");
-  const result = new Float64Array(rest.count);
+  const result = Float64Array.from(turned.get(mesh) ?? new Float64Array(rest.count));
   const targets = geometry.morphAttributes.position ?? [];
   for (const name of names) {
     const target = targets[mesh.morphTargetDictionary?.[name] ?? -1];

@@ -48,7 +48,8 @@ watch();
 
 async function load(): Promise<Parts> {
   try {
-    const loaded = await loadModel(fromBase64(block("model")), performed.content.backwards);
+    const { backwards, joints } = performed.content;
+    const loaded = await loadModel(fromBase64(block("model")), backwards, joints);
     const highest = peaks(performed.channels);
     const used = performed.channels.names.filter((_, index) => highest[index] > 0);
     const made = new Stage(element<HTMLCanvasElement>("head"), loaded, used);

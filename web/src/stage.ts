@@ -59,7 +59,7 @@ export class Stage {
     this.#renderer.toneMappingExposure = 1.12;
     this.#renderer.shadowMap.enabled = true;
     this.#renderer.shadowMap.type = PCFShadowMap;
-    this.#framing = framing(model.root, model.meshes, used);
+    this.#framing = framing(model.root, model.meshes, used, model.turned(used));
     this.#scene.add(model.root);
     model.root.traverse((object) => {
       object.castShadow = object.receiveShadow = object instanceof Mesh;

@@ -9,7 +9,7 @@ drives them, too. glTF itself knows no in-betweens.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -78,6 +78,23 @@ def hats(values: Floats, steps: Sequence[float]) -> list[Floats]:
     """
     knots = [0.0, *steps, 1.0]
     return [np.interp(values, knots, row) for row in np.eye(len(knots))[1:-1]]
+
+
+def between_values(values: Mapping[str, float], targets: Iterable[str]) -> dict[str, float]:
+    """Return the weights of the in-betweens of some targets, at one instant.
+
+    Examples
+    --------
+    >>> between_values({"open": 0.25, "W": 1.0}, ["open", "open@50", "W"])
+    {'open@50': 0.5}
+    """
+    found = {}
+    for name, steps in betweens(targets).items():
+        if name in values:
+            weights = hats(np.array([values[name]]), steps)
+            for step, weight in zip(steps, weights, strict=True):
+                found[between_name(name, step)] = float(weight[0])
+    return found
 
 
 def with_betweens(animation: Animation, targets: Iterable[str]) -> Animation:

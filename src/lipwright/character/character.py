@@ -1,5 +1,6 @@
 """Characters: a model, and how a set's controls move it.
 
+A user's model is calibrated once, when it is first asked for (:mod:`.calibration`).
 ``head`` is built in and made by the package's own code; anything else is a path to a
 GLB, VRM or glTF file, or to a character file that names one. What a character file maps,
 and before it a mapping file that a user gives, goes before what is known of the model's
@@ -10,7 +11,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -19,6 +20,7 @@ import numpy as np
 
 from lipwright.animation import Animation
 from lipwright.character.between import with_betweens
+from lipwright.character.calibration import Calibration, calibrate
 from lipwright.character.character_file import OWN_PLACES, CharacterFile, Versions
 from lipwright.character.character_reading import is_character_file, read_character_file
 from lipwright.character.fitting import Fitting, fit
@@ -56,6 +58,8 @@ class Character:
         What ``mapping`` was put together from, the first beneath, each with its place.
     files : tuple of (str, Version)
         All files that were read.
+    calibrated : bool
+        Whether gains are found from the mesh; a built-in one is made to measure.
     """
 
     name: str
@@ -67,6 +71,9 @@ class Character:
     file: CharacterFile | None = None
     mappings: tuple[tuple[Mapping, str], ...] = ()
     files: Versions = ()
+    calibrated: bool = True
+    _rig: list[Rig] = field(default_factory=list, repr=False)
+    _found: list[tuple[Fitting, Calibration]] = field(default_factory=list, repr=False)
 
     @property
     def fits(self) -> bool:
@@ -97,11 +104,25 @@ class Character:
 
     def read_rig(self) -> Rig:
         """Return what the model has that can move a mouth."""
-        return read_rig(self.model())
+        if not self._rig:
+            self._rig.append(read_rig(self.model()))
+        return self._rig[0]
 
     def fit(self) -> Fitting:
-        """Return how each control is made on this model."""
-        return fit(self.read_rig(), self.mapping, self.mapping_name)
+        """Return how each control is made on this model, calibrated."""
+        return self._fitted()[0]
+
+    def calibration(self) -> Calibration:
+        """Return what was found of the mouth on the mesh, and how it made the gains."""
+        return self._fitted()[1]
+
+    def _fitted(self) -> tuple[Fitting, Calibration]:
+        if not self._found:
+            rig = self.read_rig()
+            found = fit(rig, self.mapping, self.mapping_name)
+            made = calibrate(rig, found) if self.calibrated else (found, _MADE_TO_MEASURE)
+            self._found.append(made)
+        return self._found[0]
 
     def check(self, controls: Sequence[str]) -> None:
         """Refuse early what :meth:`rig` would refuse.
@@ -112,7 +133,8 @@ class Character:
             If none of the controls moves anything on this model.
         """
         still = np.zeros((1, len(controls)), np.float32)
-        self._drive(Animation(tuple(controls), still, 1.0))
+        plain = fit(self.read_rig(), self.mapping, self.mapping_name)
+        self._drive(Animation(tuple(controls), still, 1.0), plain)
 
     def rig(self, animation: Animation) -> RiggedModel:
         """Return the model with its morph targets' values over time.
@@ -127,19 +149,39 @@ class Character:
         CharacterError
             If none of the controls moves anything on this model.
         """
-        channels = self._drive(animation)
-        return RiggedModel(self.name, self.model().to_glb(), channels)
+        fitting = self.fit()
+        channels, joints = self._drive(animation, fitting), fitting.joints
+        driven = {name: joints[name] for name in channels.controls if name in joints}
+        return RiggedModel(self.name, self.model().to_glb(), channels, driven)
 
-    def _drive(self, animation: Animation) -> Animation:
+    def _drive(self, animation: Animation, fitting: Fitting) -> Animation:
         try:
-            driven = self.fit().drive(animation)
+            driven = fitting.drive(animation)
         except CharacterError as error:
             raise error.at(self.model().where) from None
         return with_betweens(driven, self.read_rig().all_targets)
 
+    def picture(self) -> str:
+        """Return a drawing (SVG) of the mouth and of the vertices that were taken for it.
+
+        Raises
+        ------
+        CharacterError
+            If no mouth was found on the mesh.
+        """
+        from lipwright.character.picture import mouth_picture  # Few ever draw it.
+
+        found = self.calibration()
+        if found.mouth is None and not self.calibrated:
+            found = calibrate(self.read_rig(), self.fit())[1]
+        return mouth_picture(self.name, self.fit(), found)
+
     def write_mapping(self, path: str | Path) -> None:
         """Write how each control is made, in the model's own names, as a file to edit."""
         write_atomically(path, self.fit().to_mapping(self.name).to_bytes())
+
+
+_MADE_TO_MEASURE = Calibration(reason="it is made to measure")
 
 
 def load_character(spec: str | Path, mapping: str | Path | None = None) -> Character:
@@ -181,6 +223,7 @@ def load_character(spec: str | Path, mapping: str | Path | None = None) -> Chara
         file,
         mappings,
         (*(file.files if file else ()), *files, *_version(mapping)),
+        calibrated=source not in BUILT_IN,
     )
     if mappings or source not in BUILT_IN:
         rig = character.read_rig()

@@ -1,7 +1,8 @@
 """What a character is made of, for people and for programs.
 
 Which vocabulary was found, how each control is made from it, what is missing and what
-stands in: ``lipwright character inspect``.
+stands in, which joint turns, and how the mesh made the gains: ``lipwright character
+inspect``.
 """
 
 from __future__ import annotations
@@ -10,8 +11,10 @@ import re
 import textwrap
 from typing import Any
 
+from lipwright.character.calibration import Calibration
 from lipwright.character.character import Character
-from lipwright.character.fitting import EXACT, MISSING, FittedControl
+from lipwright.character.fitting import EXACT, MISSING, FittedControl, Fitting
+from lipwright.character.rig import Rig
 from lipwright.character.sources import describe_layers, inspect_layers, source_of
 from lipwright.files import format_number
 
@@ -27,7 +30,9 @@ def inspect_character(character: Character) -> dict[str, Any]:
         ``name``; ``vocabulary`` (or None), ``found`` and ``asked`` (its channels on the
         rig); ``controls`` (for each its ``status``, ``weights``, ``gain``, ``missing``
         and ``note``); ``limits``; ``meshes`` (their ``name`` and ``targets``);
-        ``unused`` (morph targets that no control moves); ``expressions``; ``jaws``. Of a
+        ``unused`` (morph targets that no control moves); ``expressions``; ``jaws``;
+        ``joints`` (channels that turn one: its name, ``axis`` and ``degrees``);
+        ``calibration`` (see :func:`_calibration`). Of a
         character file also ``file``, ``layers``, ``model`` and ``speech_rate``. A control's
         ``from`` names the mapping that makes it, where it is not the vocabulary's.
     """
@@ -54,7 +59,37 @@ def inspect_character(character: Character) -> dict[str, Any]:
         "unused": [target for target in rig.targets if target not in used],
         "expressions": rig.expressions,
         "jaws": list(rig.jaws),
+        "joints": {
+            name: {"joint": turn.name, "axis": list(turn.axis), "degrees": turn.degrees}
+            for name, turn in fitting.joints.items()
+        },
+        "calibration": _calibration(character.calibration()),
         **inspect_layers(character),
+    }
+
+
+def _calibration(found: Calibration) -> dict[str, Any]:
+    """Return what was found on the mesh; shares are of the mouth's width at rest."""
+    if found.mouth is None or found.rest is None:
+        return {"mouth": None, "reason": found.reason}
+    return {
+        "mouth": {
+            "width": found.mouth.width,
+            "gap_at_rest": found.rest.gap,
+            "upper": len(found.mouth.upper),
+            "lower": len(found.mouth.lower),
+        },
+        "controls": {
+            control: {
+                "measure": each.measure,
+                "wanted": each.wanted,
+                "at_gain_1": each.before,
+                "gain": each.gain,
+                "reached": each.after,
+                "note": each.note,
+            }
+            for control, each in found.controls.items()
+        },
     }
 
 
@@ -80,9 +115,39 @@ def describe_character(character: Character) -> str:
             lines += _wrapped(" " * (width + 14), f"(from {source})") if source else []
     else:
         lines += _wrapped("morph targets  ", ", ".join(rig.targets))
-    if rig.jaws:
-        lines += ["", f"joints like a jaw (not driven): {', '.join(rig.jaws)}"]
+    lines += _joints(rig, fitting) + _gains(character.calibration())
     return "\n".join(lines) + "\n"
+
+
+def _joints(rig: Rig, fitting: Fitting) -> list[str]:
+    lines = []
+    for name, turn in fitting.joints.items():
+        axis = ", ".join(format_number(value, 3) for value in turn.axis)
+        by = f"{format_number(turn.degrees, 3)}° about its own ({axis})"
+        lines += _wrapped("joint: ", f"{turn.name!r} turns by {by} when {name!r} is 1")
+    driven = {turn.name for turn in fitting.joints.values()}
+    still = [name for name in rig.jaws if name not in driven]
+    if still:
+        lines += _wrapped("joints like a jaw (not driven): ", ", ".join(still))
+    return ["", *lines] if lines else []
+
+
+def _gains(found: Calibration) -> list[str]:
+    if found.mouth is None or found.rest is None:
+        return ["", f"calibration: none, {found.reason}; gains are as given"]
+    lines = [
+        "",
+        f"calibration: lips at {len(found.mouth.upper)} pairs of vertices; shares of the mouth's",
+        f"width at rest, where the lips are {found.rest.gap:.1%} apart:",
+    ]
+    for control, each in found.controls.items():
+        at = "at 0.5" if control == "open" else "at 1"
+        change = f"{each.measure.ljust(5)} {each.before:.1%} -> {each.after:.1%}"
+        wanted = f"(wanted {each.wanted:.1%}), gain {each.gain:g}"
+        lines.append(f"  {control.ljust(4)} {at.ljust(6)} {change} {wanted}")
+        if each.note:
+            lines += _wrapped(" " * 14, f"({each.note})")
+    return lines
 
 
 def _meshes(count: int) -> str:

@@ -2,8 +2,9 @@
 
 A row per control: channels and weights. A channel's value is the sum of its rows'
 weights, times each control's value and gain, kept within the channel's limits (0..1
-where none are given). A mapping says what is wanted, in names of a vocabulary or of a
-rig; :mod:`lipwright.character.fitting` finds these names on a rig.
+where none are given). A channel is a morph target, or a joint that turns. A mapping says
+what is wanted, in names of a vocabulary or of a rig; :mod:`lipwright.character.fitting`
+finds these names on a rig.
 """
 
 from __future__ import annotations
@@ -20,7 +21,27 @@ from lipwright.files import convert, format_number, quote, read_document
 
 FORMAT = "lipwright/mapping"
 VERSION = 1
+JAW_DEGREES = 20.0
+"""How far a jaw turns at 1 where nobody says: a wide yawn is about 30."""
 Row = dict[str, float]
+
+
+class JointChannel(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """A channel that turns a joint, by so many degrees at 1.
+
+    Parameters
+    ----------
+    joint : str
+        The joint's name; the channel's own where none is given.
+    axis : tuple of 3 float, optional
+        In the joint's own space; None means that it is found from the model.
+    degrees : float
+        By the right hand about the axis; where the axis is found, what is positive opens.
+    """
+
+    joint: str = ""
+    axis: tuple[float, float, float] | None = None
+    degrees: float = JAW_DEGREES
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,6 +66,8 @@ class Mapping:
         What to know about a control.
     about : str
         What to know about the mapping.
+    joints : dict of str to JointChannel
+        Channels that turn joints, usable in rows like any other.
     """
 
     name: str
@@ -55,6 +78,7 @@ class Mapping:
     limits: dict[str, tuple[float, float]] = field(default_factory=dict)
     notes: dict[str, str] = field(default_factory=dict)
     about: str = ""
+    joints: dict[str, JointChannel] = field(default_factory=dict)
 
     @property
     def channels(self) -> tuple[str, ...]:
@@ -82,6 +106,7 @@ class Mapping:
             for k, (low, high) in self.limits.items()
         }
         sections = {
+            "joints": {k: _joint(joint) for k, joint in self.joints.items()},
             "otherwise": alternatives,
             "names": spellings,
             "gains": {k: format_number(gain) for k, gain in self.gains.items()},
@@ -102,6 +127,7 @@ class _Document(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     limits: dict[str, tuple[float, float]] = {}
     notes: dict[str, str] = {}
     about: str = ""
+    joints: dict[str, JointChannel] = {}
 
 
 def read_mapping(path: str | Path) -> Mapping:
@@ -117,6 +143,7 @@ def read_mapping(path: str | Path) -> Mapping:
     document = read_document(path, format=FORMAT, version=VERSION)
     read = convert(document, _Document, str(path))
     check_numbers(read.gains, read.limits, str(path))
+    check_joints(read.joints, str(path))
     return Mapping(
         read.name,
         read.controls,
@@ -126,6 +153,7 @@ def read_mapping(path: str | Path) -> Mapping:
         read.limits,
         read.notes,
         read.about,
+        read.joints,
     )
 
 
@@ -152,6 +180,35 @@ def check_numbers(
             )
 
 
+def check_joints(joints: MappingType[str, JointChannel], where: str) -> None:
+    """Refuse axes without a direction, and turns of no degrees or too many.
+
+    Raises
+    ------
+    FileFormatError
+    """
+    for channel, joint in joints.items():
+        place = f"{where}, at joints.{channel}"
+        if joint.axis is not None and max(map(abs, joint.axis)) < 1e-9:
+            raise FileFormatError(
+                "the axis has no direction", where=place, expected="one such as [1, 0, 0]"
+            )
+        if not 0 < abs(joint.degrees) <= 90:
+            raise FileFormatError(
+                f"{format_number(joint.degrees)} degrees",
+                where=place,
+                expected="more than 0 and at most 90, of either sign",
+            )
+
+
+def _joint(joint: JointChannel) -> str:
+    fields = [f'"joint": {quote(joint.joint)}'] if joint.joint else []
+    if joint.axis is not None:
+        fields.append(f'"axis": [{", ".join(map(format_number, joint.axis))}]')
+    fields.append(f'"degrees": {format_number(joint.degrees)}')
+    return "{" + ", ".join(fields) + "}"
+
+
 def merged(mappings: Sequence[Mapping], name: str) -> Mapping:
     """Return several mappings as one: the later one goes before the earlier, row by row."""
     whole = Mapping(name, {})
@@ -167,6 +224,7 @@ def merged(mappings: Sequence[Mapping], name: str) -> Mapping:
             {**whole.gains, **one.gains},
             {**whole.limits, **one.limits},
             {**notes, **one.notes},
+            joints={**whole.joints, **one.joints},
         )
     return whole
 

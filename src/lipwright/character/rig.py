@@ -1,18 +1,20 @@
 """Rigs: what a model has that can move a mouth.
 
 Morph targets by name, the expressions of VRM 0 and 1 (named mixes of morph targets),
-and joints that look like a jaw. Joints are reported, not yet driven.
+and joints: the one that is the jaw, with how it opens.
 """
 
 from __future__ import annotations
 
-import re
 from dataclasses import dataclass, field
 from typing import Any
 
 from lipwright.character.between import between_names
+from lipwright.character.jaw import jaw_turn, opening_turn
+from lipwright.character.skeleton import jaw_names
 from lipwright.errors import CharacterError
 from lipwright.gltf import Gltf, MorphMesh, morph_meshes, structure
+from lipwright.performance import JointTurn
 
 Weights = dict[str, float]
 
@@ -29,11 +31,17 @@ class Rig:
         For each VRM expression, the weight of each morph target that it moves.
     jaws : tuple of str
         Names of joints that look like a jaw.
+    jaw : JointTurn, optional
+        How the jaw opens, where a joint carries it.
+    model : Gltf, optional
+        The model itself.
     """
 
     meshes: tuple[MorphMesh, ...]
     expressions: dict[str, Weights] = field(default_factory=dict)
     jaws: tuple[str, ...] = ()
+    jaw: JointTurn | None = None
+    model: Gltf | None = None
 
     @property
     def targets(self) -> tuple[str, ...]:
@@ -45,6 +53,19 @@ class Rig:
     def all_targets(self) -> tuple[str, ...]:
         """The same with in-betweens."""
         return tuple(dict.fromkeys(name for mesh in self.meshes for name in mesh.targets))
+
+    @property
+    def nodes(self) -> dict[str, int]:
+        """The nodes that have a name; of several of one name, the first."""
+        found: dict[str, int] = {}
+        for index, node in enumerate(self.model.items("nodes") if self.model else ()):
+            if isinstance(node.get("name"), str):
+                found.setdefault(node["name"], index)
+        return found
+
+    def opening(self, node: int, degrees: float) -> JointTurn | None:
+        """Return how a joint turns to lower what it carries, or None if it carries nothing."""
+        return opening_turn(self.model, node, degrees) if self.model else None
 
 
 def read_rig(model: Gltf) -> Rig:
@@ -61,24 +82,19 @@ def read_rig(model: Gltf) -> Rig:
         raise CharacterError("holds no mesh", where=model.where, expected="a head to animate")
     meshes = morph_meshes(model)
     with structure(model.where):
-        jaws = _jaws(model)
+        jaws = jaw_names(model)
         expressions = _expressions(model, meshes)
     shown = tuple(mesh for mesh in meshes if mesh.nodes)
-    if not shown:
-        joint = f" (its joint {jaws[0]!r} is not driven yet)" if jaws else ""
+    jaw = jaw_turn(model)
+    if not shown and jaw is None:
+        joint = f" (its joint {jaws[0]!r} carries no vertices)" if jaws else ""
         raise CharacterError(
-            f"has no morph targets{joint}",
+            f"has no morph targets and no jaw that turns{joint}",
             where=model.where,
-            expected="a head with mouth shapes, such as ARKit's or visemes",
+            expected="a head with mouth shapes, such as ARKit's or visemes, or a jaw joint",
             cure="export it with its blend shapes (shape keys)",
         )
-    return Rig(shown, expressions, jaws)
-
-
-def _jaws(model: Gltf) -> tuple[str, ...]:
-    joints = {index for skin in model.items("skins") for index in skin.get("joints", ())}
-    names = [str(n.get("name", "")) for i, n in enumerate(model.items("nodes")) if i in joints]
-    return tuple(name for name in names if re.search(r"jaw|mandible", name, re.IGNORECASE))
+    return Rig(shown, expressions, jaws, jaw, model)
 
 
 def _expressions(model: Gltf, meshes: tuple[MorphMesh, ...]) -> dict[str, Weights]:

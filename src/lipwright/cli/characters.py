@@ -36,8 +36,14 @@ character.add_command(build)
     "--write", type=click.Path(path_type=Path), metavar="FILE",
     help="Write the mapping to a file, to be edited and given with --mapping.",
 )  # fmt: skip
+@click.option(
+    "--picture", type=click.Path(path_type=Path), metavar="FILE.svg",
+    help="Draw the mouth with the vertices that were taken for lips and corners.",
+)  # fmt: skip
 @options.as_json
-def inspect(model: str, mapping: Path | None, write: Path | None, as_json: bool) -> None:
+def inspect(
+    model: str, mapping: Path | None, write: Path | None, picture: Path | None, as_json: bool
+) -> None:
     """Say what the rig of MODEL has and how each pose is made from it.
 
     MODEL is head, a character file (.json), or a .glb, .vrm or .gltf file. Of a character
@@ -45,11 +51,15 @@ def inspect(model: str, mapping: Path | None, write: Path | None, as_json: bool)
     """
     from lipwright.casting import engine_for
     from lipwright.character import describe_character, inspect_character, load_character
+    from lipwright.files import write_atomically
 
     loaded = load_character(model, mapping=mapping)
+    drawn = loaded.picture() if picture is not None else ""
     of = engine_for(character=model).of if loaded.file is not None else None
     if write is not None:
         loaded.write_mapping(write)
+    if picture is not None:
+        write_atomically(picture, drawn.encode())
     if as_json:
         facts = inspect_character(loaded)
         click.echo(json.dumps({**facts, **(_set_facts(of) if of else {})}, indent=1))
@@ -57,8 +67,9 @@ def inspect(model: str, mapping: Path | None, write: Path | None, as_json: bool)
         click.echo(describe_character(loaded))
         if of is not None:
             click.echo(_set_text(of))
-        if write is not None:
-            click.echo(f"\nwritten: {write}")
+        files = [str(path) for path in (write, picture) if path is not None]
+        if files:
+            click.echo(f"\nwritten: {', '.join(files)}")
 
 
 def _set_facts(of: BigramSet) -> dict[str, object]:

@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 from lipwright.animation import Animation
 from lipwright.errors import CharacterError, LipwrightError
 from lipwright.gltf import Gltf, keep_morphs, morph_meshes, parse_glb
-from lipwright.performance import Performance
+from lipwright.performance import JointTurn, Performance
 from lipwright.sound import Sound
 from lipwright.timeline import Tier
 
@@ -75,6 +75,7 @@ def encode(performance: Performance) -> bytes:
         "model": rigged.name,
         "backwards": "VRM" in model.json.get("extensions", {}),
         "channels": _channels(channels),
+        "joints": {name: _turn(turn) for name, turn in rigged.joints.items()},
     }
     glb = _light(model, held.union(channels.controls)).to_glb()
     blocks = [
@@ -149,6 +150,10 @@ def _channels(channels: Animation) -> dict[str, Any]:
         "start": channels.start,
         "frames": _frames(channels.values),
     }
+
+
+def _turn(turn: JointTurn) -> dict[str, Any]:
+    return {"node": turn.node, "axis": turn.axis, "degrees": turn.degrees}
 
 
 def _frames(values: NDArray[np.float32]) -> list[list[float]]:

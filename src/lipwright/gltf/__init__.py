@@ -10,6 +10,7 @@ from lipwright.gltf.accessors import read_accessor
 from lipwright.gltf.container import Gltf, parse_glb, parse_gltf, read_gltf, structure
 from lipwright.gltf.morphs import MorphMesh, morph_meshes
 from lipwright.gltf.pruning import keep_morphs
+from lipwright.gltf.rotations import after_rest, rest_rotation
 from lipwright.gltf.writer import TRIANGLES, VERTICES, GltfWriter
 
 __all__ = [
@@ -18,11 +19,13 @@ __all__ = [
     "Gltf",
     "GltfWriter",
     "MorphMesh",
+    "after_rest",
     "keep_morphs",
     "morph_meshes",
     "parse_glb",
     "parse_gltf",
     "read_accessor",
     "read_gltf",
+    "rest_rotation",
     "structure",
 ]
