@@ -17,6 +17,7 @@ from lipwright.character.head.poses import POSES
 from lipwright.character.head.skin import build_skin
 from lipwright.character.head.teeth import LOWER, UPPER, teeth
 from lipwright.character.mesh import Part
+from tests.character import rays
 
 Floats = NDArray[np.float64]
 
@@ -94,16 +95,7 @@ def loop_gaps(**weights: float) -> Floats:
 
 def first_hit(name: str, across: Floats, **weights: float) -> Floats:
     """Return the depth at which rays along -z from in front hit a part; -inf where none."""
-    a, b, c = moved(name, **weights)[head()[name].triangles].transpose(1, 0, 2)
-    (ax, ay, az), (bx, by, bz), (cx, cy, cz) = a.T, b.T, c.T
-    x, y = across[:, :1], across[:, 1:]
-    area = (bx - ax) * (cy - ay) - (cx - ax) * (by - ay)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        v = ((x - ax) * (cy - ay) - (cx - ax) * (y - ay)) / area
-        w = ((bx - ax) * (y - ay) - (x - ax) * (by - ay)) / area
-        hit = (v >= 0) & (w >= 0) & (v + w <= 1) & (area > 0)
-        depth = np.where(hit, az + v * (bz - az) + w * (cz - az), -np.inf)
-    return np.asarray(depth.max(axis=1), np.float64)
+    return rays.first_hit(moved(name, **weights), head()[name].triangles, across)
 
 
 # The meshes

@@ -19,7 +19,7 @@ from lipwright.engines.bigram.model import (
 from lipwright.engines.bigram.set_file import set_bytes
 from lipwright.files import write_atomically
 from lipwright.phones import load_phone_set
-from tools.english.draw import curves, single
+from tools.english.draw import HAND
 from tools.english.knowledge import CLOSING, TONGUE, WORDS
 
 TARGET = Path(__file__).parents[2] / "src" / "lipwright" / "data" / "sets" / "english.json"
@@ -68,14 +68,14 @@ def english() -> BigramSet:
     bigrams = {
         pair: Bigram(
             pair,
-            {pose: Keys.of(points) for pose, points in curves(*pair).items()},
+            {pose: Keys.of(points) for pose, points in HAND.curves(*pair).items()},
             word=WORDS.get(pair, ""),
             source="english",
         )
         for pair in empty.needed(classes)
     }
     singles = {
-        label: {pose: Keys.of(points) for pose, points in single(label).items()}
+        label: {pose: Keys.of(points) for pose, points in HAND.single(label).items()}
         for label in classes
     }
     return BigramSet(

@@ -1,7 +1,7 @@
 """Characters: a model, and how a set's controls move it.
 
 A user's model is calibrated once, when it is first asked for (:mod:`.calibration`).
-``head`` is built in and made by the package's own code; anything else is a path to a
+``head`` and ``crab`` are built in and made by the package's own code; anything else is a path to a
 GLB, VRM or glTF file, or to a character file that names one. What a character file maps,
 and before it a mapping file that a user gives, goes before what is known of the model's
 vocabulary.
@@ -310,8 +310,16 @@ def _head() -> Gltf:
     return to_gltf(build_head(), "Head")
 
 
-BUILT_IN: dict[str, Callable[[], Gltf]] = {"head": _head}
+@cache
+def _crab() -> Gltf:
+    from lipwright.character.builtin import to_gltf
+    from lipwright.character.crab import build_crab
+
+    return to_gltf(build_crab(), "Crab")
+
+
+BUILT_IN: dict[str, Callable[[], Gltf]] = {"head": _head, "crab": _crab}
 """The characters that come with Lipwright, by name."""
 
-BUILT_IN_SETS: dict[str, str] = {}
+BUILT_IN_SETS: dict[str, str] = {"crab": "crab"}
 """The bigram set of each built-in character that has one of its own."""

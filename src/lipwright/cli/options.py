@@ -58,8 +58,8 @@ animation = stack(
     ),
     click.option(
         "--character", default="head", show_default=True, metavar="WHO",
-        help="head, a character file (.json), or a .glb, .vrm or .gltf file; or mouths to cut "
-        "out: rhubarb, preston_blair, fleming_dobbs, or a file of them (.json).",
+        help="head, crab, a character file (.json), or a .glb, .vrm or .gltf file; or mouths to "
+        "cut out: rhubarb, preston_blair, fleming_dobbs, or a file of them (.json).",
     ),
     click.option(
         "--pictures", metavar="LIST",

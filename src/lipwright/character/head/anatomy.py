@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from lipwright.character.clusters import step
 from lipwright.character.head.lids import EYE_CENTER, FIRST_TURN, rim_turn
 from lipwright.character.head.lids import RIM as LID_RIM
 from lipwright.character.head.lips import CONTACT, CORNER, RED, half_turns
@@ -74,12 +75,6 @@ class Anatomy:
     def with_jaw(self, jaw: Floats) -> Anatomy:
         """Return the same part with other weights of the jaw."""
         return replace(self, jaw=jaw)
-
-
-def step(low: float, high: float, values: Floats) -> Floats:
-    """Return 0 below `low`, 1 above `high`, smooth between (either order)."""
-    share = np.clip((values - low) / (high - low), 0.0, 1.0)
-    return np.asarray(share * share * (3.0 - 2.0 * share), np.float64)
 
 
 def rigid(

@@ -10,8 +10,9 @@ from functools import partial
 
 import numpy as np
 
+from lipwright.character.clusters import shift, step, turn
 from lipwright.character.face_model import Move, displacement
-from lipwright.character.head.anatomy import Anatomy, Floats, step
+from lipwright.character.head.anatomy import Anatomy, Floats
 from lipwright.character.head.lids import EYE_CENTER
 from lipwright.character.head.moves import (
     corner,
@@ -19,8 +20,6 @@ from lipwright.character.head.moves import (
     half,
     jaw,
     lower,
-    shift,
-    turn,
     upper,
 )
 

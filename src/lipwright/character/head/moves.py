@@ -1,4 +1,4 @@
-"""The words in which poses are written: shifts, gathers and turns of weighted vertices.
+"""The words in which the head's poses are written, beside those that all characters share.
 
 Each returns one :class:`~lipwright.character.face_model.Move` of a cluster; lengths in
 millimetres and angles in degrees, as an animator would say them.
@@ -9,17 +9,13 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from lipwright.character.clusters import shift, step
 from lipwright.character.face_model import Move
-from lipwright.character.head.anatomy import Anatomy, step
+from lipwright.character.head.anatomy import Anatomy
 
 Floats = NDArray[np.float64]
 
 JAW_PIVOT = (0.0, -0.016, 0.004)
-
-
-def shift(weight: Floats, x: float = 0.0, y: float = 0.0, z: float = 0.0) -> Move:
-    """Move a cluster by (x, y, z) mm."""
-    return Move(weight[:, None] * np.array([x, y, z]) * 1e-3)
 
 
 def gather(part: Anatomy, weight: Floats, share: float) -> Move:
@@ -40,16 +36,6 @@ def jaw(part: Anatomy, degrees: float, forward: float = 0.0, down: float = 0.0) 
     """Open the jaw: it turns about its joints, which slide forward and down by mm."""
     slide = shift(part.jaw, 0.0, -down, forward).translation
     return [Move(slide, part.jaw * np.radians(degrees), (1.0, 0.0, 0.0), JAW_PIVOT)]
-
-
-def turn(
-    weight: Floats,
-    degrees: float,
-    axis: tuple[float, float, float],
-    pivot: tuple[float, float, float],
-) -> Move:
-    """Turn a cluster about an axis through a pivot (metres)."""
-    return Move(np.zeros((len(weight), 3)), weight * np.radians(degrees), axis, pivot)
 
 
 def half(part: Anatomy, side: int) -> Floats:

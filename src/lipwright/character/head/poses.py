@@ -12,9 +12,10 @@ from collections.abc import Callable
 
 import numpy as np
 
+from lipwright.character.clusters import shift, step, turn
 from lipwright.character.face_model import Move
-from lipwright.character.head.anatomy import Anatomy, step
-from lipwright.character.head.moves import corner, gather, jaw, lower, shift, spread, turn, upper
+from lipwright.character.head.anatomy import Anatomy
+from lipwright.character.head.moves import corner, gather, jaw, lower, spread, upper
 
 OPEN_DEGREES = 15.0
 Pose = Callable[[Anatomy], list[Move]]
