@@ -1,57 +1,54 @@
-"""Any IPA label reduced to the Common Phoneme Set by how it is articulated (DESIGN section 3).
+"""Any IPA label reduced to classes by how it is articulated (DESIGN section 3).
 
-A label is read letter by letter. A vowel goes to the class whose example is nearest in
-height, backness and rounding; a consonant to the nearest in place, closure, sibilance,
-laterality and rounding. The lips weigh most, since they are what is seen: a front
-rounded vowel (y, ø) goes with u, whose lips it has, and not with i, whose tongue it
-has. Tones, stress, aspiration, nasality and other marks that no face shows are passed
-over. The letters' features are data (``data/articulation/ipa.json``); sounds that the set has a
-class for stand in ``ipa-to-common.json`` and need none of this.
+A label is read letter by letter. Sounds that the Common Phoneme Set has a class for
+stand in ``ipa-to-common.json``; every other goes to the class with the nearest example
+in :mod:`lipwright.phones.articulation`. Tones, stress, aspiration, nasality, voice and
+other marks that no face shows are passed over. A class within the chart's
+``exact_within`` shows all that is seen of the sound: it is exact. Farther off it is a
+stand-in, and how far is told. Other sets than the common one name the segments that
+show their own classes in the phone set's file (``"ipa": ["y", "ʏ"]``).
 """
 
 from __future__ import annotations
 
 import unicodedata
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 
-import msgspec
-
-from lipwright.files import convert, read_document
+from lipwright.phones.articulation import Segment, chart, distance, is_vowel
 from lipwright.phones.reduction import Piece, read_table
-from lipwright.phones.sets import DATA
+from lipwright.phones.sets import DATA, load_phone_set
 
-_VOWEL_WEIGHTS = (1.5, 0.6, 2.0)  # height, backness, rounding
-_CONSONANT_WEIGHTS = (0.4, 3.0, 2.0, 3.0, 2.0)  # place, closure, sibilant, lateral, rounding
-_FARTHEST_DIPHTHONG = 0.47  # beyond this the two vowels are two sounds
 _LONG, _HALF_LONG, _RHOTIC = "ː", "ˑ", "˞"
+_LOWERED = {"\u031e": 1, "\u031d": -1}
+_STOPS = "pbtdkɡ"
 _ROUNDING = "ʷᵝ"
 _STRESS = str.maketrans("", "", "ˈˌ'. -")
-_VOWEL_SHARE, _CONSONANT_SHARE = 2.0, 1.0
-_RHOTIC_VOWELS = "ɚɝ"
-
-
-class _Document(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    version: int
-    about: str
-    vowels: dict[str, tuple[float, float, float]]
-    consonants: dict[str, tuple[float, float, float, float, float]]
-    classes: dict[str, list[str]]
-    diphthongs: dict[str, list[str]]
-    spellings: dict[str, str]
+_VOWEL_SHARE, _CONSONANT_SHARE, _GLIDE_SHARE = 2.0, 1.0, 0.5
+_OPEN_STOP = 0.5  # distance of a stop whose closure is not reached (b̞) from its class
+_ARROWS = "↑↓↗↘"
 
 
 @dataclass(frozen=True, slots=True)
-class _Segment:
-    """One letter of a label with its marks."""
+class Nearest:
+    """The classes that a label becomes.
 
-    letter: str
-    rounded: bool = False
-    rhotic: bool = False
-    length: float = 1.0
+    Parameters
+    ----------
+    pieces : tuple of Piece
+        Each with its share of the time.
+    distance : float
+        Of the sound whose class is farthest off; 0 where the set has a class for it.
+    exact : bool
+        Whether that is within the chart's ``exact_within``.
+    """
+
+    pieces: tuple[Piece, ...]
+    distance: float
+    exact: bool
 
 
-def nearest_class(label: str) -> tuple[tuple[Piece, ...], bool] | None:
+def nearest_class(label: str, target: str = "common") -> tuple[tuple[Piece, ...], bool] | None:
     """Return the classes that an IPA label becomes, and whether they are exact.
 
     Parameters
@@ -59,11 +56,14 @@ def nearest_class(label: str) -> tuple[tuple[Piece, ...], bool] | None:
     label : str
         One phone, with any diacritics; several letters are a diphthong, an affricate,
         or sounds one after the other.
+    target : str
+        The phone set with the classes: a name, or a path ending in ``.json``. Its own
+        ``ipa`` segments count before those of the Common Phoneme Set.
 
     Returns
     -------
     tuple of (tuple of Piece, bool), or None
-        None where a character is no IPA, or nothing sounds.
+        None where a character is no IPA, nothing sounds, or the target names no segments.
 
     Examples
     --------
@@ -72,129 +72,168 @@ def nearest_class(label: str) -> tuple[tuple[Piece, ...], bool] | None:
     >>> nearest_class("yː")
     ((Piece(label='w', share=3.0),), False)
     """
-    known = read_table(DATA / "ipa-to-common.json").pieces
-    spellings = _features().spellings
+    found = nearest(label, target)
+    return None if found is None else (found.pieces, found.exact)
+
+
+def nearest(label: str, target: str = "common") -> Nearest | None:
+    """Return what :func:`nearest_class` does, and how far off it is.
+
+    Examples
+    --------
+    >>> found = nearest("ʁ")
+    >>> found.pieces[0].label, round(found.distance, 2), found.exact
+    ('kg', 0.3, True)
+    """
+    known = _known(target)
+    spellings = chart().spellings
     unified = "".join(spellings.get(letter, letter) for letter in label.translate(_STRESS))
     plain = unicodedata.normalize("NFC", unified)
-    for spelling in (plain, _without_marks(plain), _without_marks(plain).replace(_LONG, "")):
+    bare = plain if _is_changed(plain) else _without_marks(plain)
+    for spelling in (plain, bare, bare.replace(_LONG, "")):
         if spelling in known:
-            return known[spelling], True
+            return Nearest(known[spelling], 0.0, True)
     segments = _segments(plain)
-    return None if not segments else (_pieces(segments), False)
+    return _reduced(segments, target) if segments else None
+
+
+def has_examples(target: str) -> bool:
+    """Return whether every class of a phone set but silence has a segment that shows it."""
+    examples = _examples(target)
+    return all(examples.get(label) for label in load_phone_set(target).labels if label != "sil")
 
 
 @cache
-def _features() -> _Document:
-    path = DATA.parent / "articulation" / "ipa.json"
-    return convert(
-        read_document(path, format="lipwright/articulation", version=1), _Document, str(path)
-    )
+def _examples(target: str) -> dict[str, tuple[str, ...]]:
+    """Segments of each class: the set's own, else those of the class of that name."""
+    common = chart().classes
+    own = {phone.label: phone.ipa for phone in load_phone_set(target).phones}
+    taken = {segment for segments in own.values() for segment in segments}
+    return {
+        label: segments or tuple(each for each in common.get(label, ()) if each not in taken)
+        for label, segments in own.items()
+    }
+
+
+@cache
+def _known(target: str) -> dict[str, tuple[Piece, ...]]:
+    """Labels that a class is there for, as far as the target set has those classes."""
+    of = load_phone_set(target)
+    known = {
+        label: pieces
+        for label, pieces in read_table(DATA / "ipa-to-common.json").pieces.items()
+        if all(piece.label in of.labels for piece in pieces)
+    }
+    return known | {each: (Piece(one.label),) for one in of.phones for each in one.ipa}
 
 
 def _is_mark(character: str) -> bool:
     # Combining marks, modifier letters (ʰ, ʲ, tones) and digits of tones and numbering.
-    return unicodedata.category(character) in ("Mn", "Lm", "Sk", "No", "Nd") or character in "↑↓↗↘"
+    return unicodedata.category(character) in ("Mn", "Lm", "Sk", "No", "Nd") or (
+        character in _ARROWS
+    )
+
+
+def _is_changed(label: str) -> bool:
+    """Whether a mark changes what is seen of a letter: then only its segments tell."""
+    return any(mark in label for mark in (*_ROUNDING, *_LOWERED))
+
+
+def _apart(label: str) -> str:
+    return unicodedata.normalize("NFD", label.replace("ç", "\0")).replace("\0", "ç")
 
 
 def _without_marks(label: str) -> str:
-    apart = unicodedata.normalize("NFD", label.replace("ç", "\0"))
-    kept = (c for c in apart if not _is_mark(c) or c in (_LONG, _RHOTIC))
-    return "".join(kept).replace("\0", "ç")
+    return "".join(c for c in _apart(label) if not _is_mark(c) or c in (_LONG, _RHOTIC))
 
 
-def _segments(label: str) -> list[_Segment]:
+def _segments(label: str) -> list[Segment]:
     """Return the letters of a label, or none if one of them is no IPA."""
-    features = _features()
-    apart = unicodedata.normalize("NFD", label.replace("ç", "\0")).replace("\0", "ç")
-    result: list[_Segment] = []
-    for character in apart:
-        if result and character == result[-1].letter and character in features.vowels:
+    known = chart()
+    result: list[Segment] = []
+    for character in _apart(label):
+        if result and character == result[-1].letter and is_vowel(character):
             result[-1] = _marked(result[-1], _LONG)  # "aa" is a long a
-        elif character in features.vowels or character in features.consonants:
-            result.append(_Segment(character, rhotic=character in _RHOTIC_VOWELS))
+        elif character in known.vowels or character in known.consonants:
+            result.append(Segment(character))
         elif not _is_mark(character):
             return []
+        elif result and result[-1].letter + character in known.consonants:
+            result[-1] = replace(result[-1], letter=result[-1].letter + character)  # ř: r̝
+        elif result and character == "ʷ" and not is_vowel(result[-1].letter):
+            result.append(Segment("w", length=_GLIDE_SHARE))  # the lips round on the way out
         elif result:
             result[-1] = _marked(result[-1], character)
     return result
 
 
-def _marked(segment: _Segment, mark: str) -> _Segment:
-    length = segment.length * {_LONG: 1.5, _HALF_LONG: 1.25}.get(mark, 1.0)
-    return _Segment(
-        segment.letter,
-        segment.rounded or mark in _ROUNDING,
-        segment.rhotic or mark == _RHOTIC,
-        length,
-    )
+def _marked(segment: Segment, mark: str) -> Segment:
+    if mark in (_LONG, _HALF_LONG):
+        return replace(segment, length=segment.length * (1.5 if mark == _LONG else 1.25))
+    if mark in _ROUNDING:
+        return replace(segment, rounding=mark)
+    if mark == _RHOTIC:
+        return replace(segment, rhotic=True)
+    return replace(segment, lowered=_LOWERED[mark]) if mark in _LOWERED else segment
 
 
-def _pieces(segments: list[_Segment]) -> tuple[Piece, ...]:
-    found: list[tuple[str, float]] = []
+def _reduced(segments: list[Segment], target: str) -> Nearest | None:
+    found: list[Piece] = []
+    farthest = 0.0
     index = 0
     while index < len(segments):
-        here = segments[index]
-        share = _share(here)
-        name = None
-        if index + 1 < len(segments) and _is_vowel(here) and _is_vowel(segments[index + 1]):
-            name = _diphthong(here, segments[index + 1])
-        if name is not None:
+        share = _share(segments[index])
+        best = _diphthong(segments[index : index + 2], target)
+        if best is not None:
             index += 1
             share += _share(segments[index])
         else:
-            name = _class_of(here)
-        if found and found[-1][0] == name:
-            found[-1] = (name, found[-1][1] + share)
-        elif found and (found[-1][0], name) == ("d", "sh"):
-            found[-1] = (name, found[-1][1] + share)  # an affricate, as tʃ is
-        else:
-            found.append((name, share))
+            best = _class_of(segments[index], target)
+        if best is None:
+            return None
+        gap, name = best
+        # A stop and ʃ are one affricate, as tʃ is.
+        if found and (found[-1].label == name or (found[-1].label, name) == ("d", "sh")):
+            share += found.pop().share
+        found.append(Piece(name, share))
+        farthest = max(farthest, gap)
         index += 1
-    return tuple(Piece(name, share) for name, share in found)
+    return Nearest(tuple(found), farthest, farthest <= chart().exact_within)
 
 
-def _is_vowel(segment: _Segment) -> bool:
-    return segment.letter in _features().vowels
+def _share(segment: Segment) -> float:
+    return segment.length * (_VOWEL_SHARE if is_vowel(segment.letter) else _CONSONANT_SHARE)
 
 
-def _share(segment: _Segment) -> float:
-    return segment.length * (_VOWEL_SHARE if _is_vowel(segment) else _CONSONANT_SHARE)
-
-
-def _class_of(segment: _Segment) -> str:
-    features = _features()
-    if segment.rhotic:
-        return "er"
-    known = read_table(DATA / "ipa-to-common.json").pieces.get(segment.letter, ())
-    if len(known) == 1 and not _is_vowel(segment):
-        return known[0].label
-    letters = features.vowels if _is_vowel(segment) else features.consonants
+def _class_of(segment: Segment, target: str) -> tuple[float, str] | None:
+    known = _known(target).get(segment.letter, ())
+    # A known vowel that a mark rounds, lowers or gives an r is another vowel.
+    other = segment.rounding or segment.rhotic or (segment.lowered and is_vowel(segment.letter))
+    if len(known) == 1 and not other:
+        open_stop = segment.lowered > 0 and segment.letter in _STOPS
+        return (_OPEN_STOP if open_stop else 0.0), known[0].label
     return min(
-        (_distance(segment, _Segment(letter)), name)
-        for name, examples in features.classes.items()
-        for letter in examples
-        if letter in letters
-    )[1]
-
-
-def _diphthong(first: _Segment, second: _Segment) -> str | None:
-    if first.rhotic or second.rhotic:
-        return None
-    distance, name = min(
-        (_distance(first, _Segment(pair[0])) + _distance(second, _Segment(pair[1])), name)
-        for name, pairs in _features().diphthongs.items()
-        for pair in pairs
+        (
+            (distance(segment, Segment(example)), name)
+            for name, examples in _examples(target).items()
+            for example in examples
+            if len(example) == 1 and is_vowel(example) == is_vowel(segment.letter)
+        ),
+        default=None,
     )
-    return name if distance <= _FARTHEST_DIPHTHONG else None
 
 
-def _distance(a: _Segment, b: _Segment) -> float:
-    """Return how far two vowels, or two consonants, are apart."""
-    features = _features()
-    vowels = _is_vowel(a)
-    letters: dict[str, tuple[float, ...]] = dict(features.vowels if vowels else features.consonants)
-    weights = _VOWEL_WEIGHTS if vowels else _CONSONANT_WEIGHTS
-    gap = [abs(x - y) for x, y in zip(letters[a.letter], letters[b.letter], strict=True)]
-    if vowels:
-        gap[-1] = abs(max(letters[a.letter][-1], float(a.rounded)) - letters[b.letter][-1])
-    return sum(weight * each for weight, each in zip(weights, gap, strict=True))
+def _diphthong(pair: list[Segment], target: str) -> tuple[float, str] | None:
+    if len(pair) < 2 or any(each.rhotic or not is_vowel(each.letter) for each in pair):
+        return None
+    first, second = pair
+    best = min(
+        (
+            (distance(first, Segment(example[0])) + distance(second, Segment(example[1])), name)
+            for name, examples in _examples(target).items()
+            for example in examples
+            if len(example) == 2
+        ),
+        default=None,
+    )
+    return best if best is not None and best[0] <= chart().diphthong_within else None

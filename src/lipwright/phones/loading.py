@@ -5,9 +5,9 @@ from __future__ import annotations
 from functools import cache
 from pathlib import Path
 
-from lipwright.errors import LabelError
+from lipwright.errors import LabelError, LipwrightError
 from lipwright.phones.reduction import Finder, Piece, Reduction, read_table
-from lipwright.phones.sets import DATA
+from lipwright.phones.sets import DATA, load_phone_set
 
 
 @cache
@@ -19,7 +19,8 @@ def load_reduction(source: str, target: str = "common") -> Reduction:
     source : str
         A phone set's name, or the path of a reduction file ending in ``.json``.
     target : str
-        The phone set to reduce to.
+        The phone set to reduce to: its name, or its path. IPA and SAMPA reduce to any set
+        whose classes have segments in IPA.
 
     Raises
     ------
@@ -30,20 +31,30 @@ def load_reduction(source: str, target: str = "common") -> Reduction:
         return Reduction(source, target, {}, lambda label: ((Piece(label),), True))
     by_path = source.endswith(".json")
     path = Path(source) if by_path else DATA / f"{source}-to-{target}.json"
-    if not by_path and not path.exists():
+    if by_path or path.exists():
+        table = read_table(path)
+        finder = _finder(table.source, table.target)
+        return Reduction(table.source, table.target, table.pieces, finder)
+    finder = _finder(source, target)
+    if finder is None:
         raise LabelError(
             f"no reduction from {source!r} to {target!r}", cure="write one, and give its path"
         )
-    table = read_table(path)
-    return Reduction(table.source, table.target, table.pieces, _finder(table.source, table.target))
+    return Reduction(source, load_phone_set(target).name, {}, finder)
 
 
 def _finder(source: str, target: str) -> Finder | None:
-    if target != "common" or source not in ("ipa", "sampa"):
+    """What asks for the nearest class, where the target's classes have segments in IPA."""
+    if source not in ("ipa", "sampa"):
         return None
-    from lipwright.phones.ipa import nearest_class  # only IPA needs its tables
+    from lipwright.phones.ipa import has_examples, nearest_class  # only IPA needs its tables
 
+    try:
+        if not has_examples(target):
+            return None
+    except LipwrightError:  # a user's reduction may name classes that no file lists
+        return None
     if source == "ipa":
-        return nearest_class
+        return lambda label: nearest_class(label, target)
     to_ipa = read_table(DATA / "sampa-to-ipa.json").pieces
-    return lambda label: nearest_class(to_ipa[label][0].label) if label in to_ipa else None
+    return lambda label: nearest_class(to_ipa[label][0].label, target) if label in to_ipa else None

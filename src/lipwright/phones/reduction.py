@@ -38,10 +38,31 @@ class ReductionReport:
         Labels that the target set has a class for, and that class.
     stand_ins : dict of str to str
         Labels that only the nearest class could stand in for, and that class.
+    counts : dict of str to int
+        How often each label came, silence left out.
+    seconds : dict of str to float
+        How long each label sounded, silence left out.
     """
 
     exact: dict[str, str] = field(default_factory=dict)
     stand_ins: dict[str, str] = field(default_factory=dict)
+    counts: dict[str, int] = field(default_factory=dict)
+    seconds: dict[str, float] = field(default_factory=dict)
+
+    @property
+    def share_exact(self) -> float:
+        """Share of the phones whose classes are exact: 0..1, and 1 where there are none."""
+        return self._share({label: float(count) for label, count in self.counts.items()})
+
+    @property
+    def share_exact_of_time(self) -> float:
+        """Share of the time of speech whose classes are exact: 0..1."""
+        return self._share(self.seconds)
+
+    def _share(self, amounts: dict[str, float]) -> float:
+        total = sum(amounts.values())
+        lost = sum(amount for label, amount in amounts.items() if label in self.stand_ins)
+        return 1.0 - lost / total if total else 1.0
 
 
 Row = tuple[str, float, float]
@@ -106,12 +127,26 @@ class Reduction:
         known = self._pieces({phone.label for phone in track}, report)
         rows: list[Row] = []
         for phone in track:
+            if phone.label != SILENCE:
+                counts, seconds = report.counts, report.seconds
+                counts[phone.label] = counts.get(phone.label, 0) + 1
+                seconds[phone.label] = seconds.get(phone.label, 0.0) + phone.duration
             pieces = known[phone.label]
             if len(pieces) == 1:
                 rows.append((pieces[0].label, phone.start, phone.end))
             else:
                 rows.extend(_split(phone, pieces))
         return rows, report
+
+    def share_exact(self, track: PhoneTrack) -> float:
+        """Return the share of a track's phones whose classes are exact, silence left out: 0..1.
+
+        Raises
+        ------
+        LabelError
+            If labels are unknown.
+        """
+        return self.rows(track)[1].share_exact
 
     def _pieces(self, labels: set[str], report: ReductionReport) -> dict[str, tuple[Piece, ...]]:
         known: dict[str, tuple[Piece, ...]] = {SILENCE: (Piece(SILENCE),)}

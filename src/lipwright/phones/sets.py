@@ -17,10 +17,15 @@ DATA = Path(__file__).parent.parent / "data" / "phones"
 
 
 class Phone(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """One label of a set, with a word in which it sounds: ``"aa"``, ``"f[a]ther"``."""
+    """One label of a set, with a word in which it sounds: ``"aa"``, ``"f[a]ther"``.
+
+    A set of classes may name the IPA segments that show a class (``"yu"``: ``["y", "ʏ"]``);
+    other labels then go to it where it is nearest.
+    """
 
     label: str
     example: str = ""
+    ipa: tuple[str, ...] = ()
 
 
 class _Document(msgspec.Struct, frozen=True, forbid_unknown_fields=True):

@@ -11,7 +11,7 @@ from collections.abc import Iterable, Sequence
 from lipwright.errors import LabelError, TextError
 from lipwright.phones import SILENCE, Reduction, load_reduction
 from lipwright.schedule.say import espeak
-from lipwright.schedule.say.assemble import plain_label
+from lipwright.schedule.say.spelling import plain_label
 from lipwright.schedule.say.voices import (
     as_voices,
     check_script,

@@ -95,6 +95,12 @@ def test_a_stop_holds_its_closure() -> None:
         assert np.abs(end).max() > 0.02, f"{vowel} ends in silence"
 
 
+def test_a_stop_that_the_voice_gives_no_time_keeps_its_closure() -> None:
+    stops = [phone for phone in say("Lan đi đến đó", voice="vi").phones if phone.label == "ɗ"]
+    assert len(stops) == 3
+    assert all(0.01 < stop.duration < 0.1 for stop in stops)
+
+
 def test_the_same_text_gives_the_same_bytes() -> None:
     first, second = say(LINE), say(LINE)
     assert first.sound is not None

@@ -16,6 +16,7 @@ from lipwright.schedule.say.voices import (
     check_script,
     library_name,
     resolve,
+    script_notes,
     unknown_voice,
 )
 from lipwright.schedule.say.words import Utterance, prepare
@@ -85,7 +86,8 @@ def say(
     if engine == "festival" or voice.split(":")[0] == "festival":
         return _say_with_festival(utterance, text, voice, rate, pitch)
     spoken, notes = _speak(utterance.spoken, voice, round(rate), pitch)
-    return from_espeak(spoken, utterance, text=text, notes=notes + _notes(utterance))
+    notes += script_notes(utterance.spoken, spoken.language) + _notes(utterance)
+    return from_espeak(spoken, utterance, text=text, notes=notes)
 
 
 def voices() -> list[Voice]:

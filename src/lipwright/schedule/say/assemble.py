@@ -5,7 +5,6 @@ Each line begins and ends with enough silence for the mouth to open in and to cl
 
 from __future__ import annotations
 
-import unicodedata
 from itertools import pairwise
 
 import numpy as np
@@ -13,6 +12,7 @@ import numpy as np
 from lipwright.phones import SILENCE, PhoneTrack
 from lipwright.schedule.say import espeak, festival
 from lipwright.schedule.say.closures import begin_stops_at_closure
+from lipwright.schedule.say.spelling import plain_label
 from lipwright.schedule.say.words import TimedPhone, Utterance, nothing_to_say, time_words
 from lipwright.sound import Sound
 from lipwright.speech import Speech
@@ -20,9 +20,8 @@ from lipwright.timeline import Interval, Tier
 
 _SILENCE_AROUND = 0.2  # seconds, the least before and after the speech
 _SHORTEST_PAUSE = 0.03  # seconds; shorter ones are joints inside a phrase
+_SHORTEST_STOP = 0.02  # seconds
 _STOPS = tuple("pbtdkɡgcɟqɢʈɖʔɓɗɠʄʛʡ")
-_NOT_IPA = str.maketrans("SZNAXΦε?:`", "ʃʒŋɑχɸɛʔːʼ", "ˈˌ-.' #[_^\"")
-_ALONE = {"ᵐ": "m", "ⁿ": "n", "ᵑ": "ŋ"}
 
 
 def from_espeak(
@@ -121,34 +120,20 @@ def _with_silence(sound: Sound, phones: list[TimedPhone]) -> tuple[Sound, list[T
     return Sound(samples, rate), [begin, *moved, end]
 
 
-def plain_label(label: str) -> str:
-    """Return a label of espeak-ng as IPA without stress, ``sil``, or nothing.
-
-    Some voices have no IPA for a sound and give the library's own ASCII name of it;
-    some give a mark (``ʲ``, a tone) as a phone of its own, which is nothing.
-
-    Examples
-    --------
-    >>> plain_label("ˈɑː"), plain_label("tS"), plain_label(""), plain_label("ʲ")
-    ('ɑː', 'tʃ', 'sil', '')
-    """
-    if not label:
-        return SILENCE
-    plain = unicodedata.normalize("NFC", label.replace("_h", "ʰ").translate(_NOT_IPA))
-    plain = _ALONE.get(plain, plain)
-    if plain.startswith("(") or not any(unicodedata.category(c) in ("Ll", "Lo") for c in plain):
-        return ""
-    return plain[:-2] + "ŋ" if len(plain) > 2 and plain.endswith("nɡ") else plain
-
-
 def _plain(spoken: espeak.Spoken) -> tuple[list[str], list[int], list[int]]:
     """Return labels, their edges (one more) and text positions: no gap, no empty phone."""
     labels, starts, positions = [SILENCE], [0], [0]
     ends = [start for _, start, _ in spoken.phones[1:]] + [len(spoken.samples)]
+    language = spoken.language
     for (label, start, position), end in zip(spoken.phones, ends, strict=True):
-        plain = plain_label(label)
+        if label.startswith("("):  # "(en)": here the voice goes on in another language
+            language = label.strip("()")
+        plain = plain_label(label, language)
         pause = plain == SILENCE
         joint = pause and end - start < _SHORTEST_PAUSE * spoken.rate
+        if end == start > starts[-1] and _is_stop(plain):
+            # Some voices give a stop no time at all (Vietnamese đ): it has its closure.
+            start -= min(round(_SHORTEST_STOP * spoken.rate), (start - starts[-1]) // 2)
         if end <= start or not plain or joint or (pause and labels[-1] == SILENCE):
             continue  # its time, if any, goes to the phone before
         if start == 0:

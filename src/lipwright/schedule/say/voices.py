@@ -6,6 +6,7 @@ A name may be a language (``en-gb``), a voice's own name, or a file of espeak-ng
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -64,6 +65,14 @@ _WRITTEN_IN = {
     "": "af an az bs ca cs cy da de en eo es et eu fi fr ga gd gn hak haw hr ht hu ia id io is it"
     " jbo kl ku la lb lfn lt ltg lv mi ms mt mto nb nci nl no om pap pl pt py qdb qu quc qya ro"
     " sjn sk sl smj sq sv sw tk tn tr uz vi",
+}
+
+_LETTERS = re.compile(r"[^\W\d_]+")
+_GREEK_LIKE_LATIN = "ΑΒΕΖΗΙΚΜΝΟΡΤΥΧανορυ"
+# Voices of espeak-ng that speak, but not what is written.
+_LIMITS = {
+    "he": "the Hebrew voice leaves out most vowels: the mouth opens less than it should",
+    "th": "the Thai voice reads some vowels as consonants: look at the result",
 }
 
 
@@ -172,6 +181,14 @@ def check_script(text: str, language: str) -> None:
     if not known:
         return  # a voice that this table does not know yet
     run = ""
+    for word in mixed_words(text):
+        if not {script_of(letter) for letter in word} - {""} <= known | {"LATIN"}:
+            raise TextError(
+                _mixed(word),
+                where="the text",
+                expected="words in one script each",
+                cure="type this word again",
+            )
     for character in text + " ":
         script = script_of(character)
         if script and script != "LATIN" and script not in known:
@@ -180,6 +197,41 @@ def check_script(text: str, language: str) -> None:
         if len(run) > 1 or (run and script_of(run) != "GREEK"):
             raise _foreign(run, language)
         run = ""
+
+
+def mixed_words(text: str) -> list[str]:
+    """Return the words in which letters of two scripts stand that look alike.
+
+    Examples
+    --------
+    >>> mixed_words("Hello H\u0435llo 5 \u03bcm")  # a Cyrillic е, and a Greek μ as a unit
+    ['Hеllo']
+    """
+    return [word for word in _LETTERS.findall(text) if _looks_mixed(word)]
+
+
+def script_notes(text: str, language: str) -> tuple[str, ...]:
+    """Return what may be wrong with a text that the voice does read."""
+    mixed = tuple(f"{_mixed(word)}: check its spelling" for word in mixed_words(text))
+    limit = _LIMITS.get(language.split("-")[0])
+    return mixed if limit is None else (*mixed, limit)
+
+
+def _looks_mixed(word: str) -> bool:
+    scripts = {
+        script_of(letter)
+        for letter in word
+        if script_of(letter) != "GREEK" or letter in _GREEK_LIKE_LATIN
+    }
+    return len(scripts & {"LATIN", "CYRILLIC", "GREEK"}) > 1
+
+
+def _mixed(word: str) -> str:
+    scripts = [script_of(letter) for letter in word]
+    rare = min(set(scripts) - {""}, key=scripts.count)
+    letter = next(each for each in word if script_of(each) == rare)
+    shown = word if len(word) <= 24 else word[:24] + "…"
+    return f"{shown!r} is written in two scripts: its {letter!r} is {rare.capitalize()}"
 
 
 def _is_one_of(language: str, names: str) -> bool:
@@ -200,6 +252,13 @@ def _foreign(letters: str, language: str) -> TextError:
             where="the text",
             expected="hiragana or katakana",
             cure="write these words in kana",
+        )
+    if language.split("-")[0] == "ko" and script == "CJK":
+        return TextError(
+            f"{shown!r}: the Korean voice does not read hanja",
+            where="the text",
+            expected="hangul",
+            cure="write these words in hangul",
         )
     return TextError(
         f"{shown!r}: the voice {language!r} does not read {name}",

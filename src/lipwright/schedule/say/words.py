@@ -22,6 +22,8 @@ _TOKENS = re.compile(r"[^\s—–…]+[—–…]*|[—–…]+")
 _AROUND = ".,;:!?…\"'“”„‚‘’«»‹›()[]{}<>¡¿—–-*_~`|。，、！？：；「」『』（）《》・।॥؟،؛"
 # Forms of letters that exist for the look of them; a voice knows the plain ones.
 _LOOKS = ("<font>", "<wide>", "<narrow>", "<isolated>", "<initial>", "<medial>", "<final>")
+_IN_CIRCLES = range(0x2460, 0x2500)
+_SMALL_CAPITAL = "LATIN LETTER SMALL CAPITAL "
 _LIGATURES = range(0xFB00, 0xFB07)
 _JOINERS = "\u200c\u200d"
 _FIRST_PICTURE = 0x2190  # arrows, boxes, dingbats and emoji; ° and № come before
@@ -94,7 +96,7 @@ def prepare(text: str) -> Utterance:
         between = ("\n\n" if gap.count("\n") > 1 else " " if gap else "") if parts else ""
         starts.append(length + len(between))
         words.append(plain.strip(_AROUND) or plain)
-        parts.append(between + plain)
+        parts.append(between + _with_plain_digits(plain))
         length += len(parts[-1])
         end = token.end()
     spoken = "".join(parts)
@@ -133,9 +135,17 @@ def _speakable(token: str) -> str:
         if character in _JOINERS:
             joins = script_of(before) and script_of(after)
             kept.append(character if joins else "")
-        elif not _is_dropped(character, category):
+        elif ord(character) in _IN_CIRCLES or not _is_dropped(character, category):
             kept.append(_without_looks(character))
     return "".join(kept)
+
+
+def _with_plain_digits(text: str) -> str:
+    """Digits of any script as 0 to 9, which every voice reads in its own language."""
+    return "".join(
+        str(unicodedata.digit(each)) if unicodedata.category(each) == "Nd" else each
+        for each in text
+    )
 
 
 def _is_dropped(character: str, category: str) -> bool:
@@ -146,9 +156,10 @@ def _is_dropped(character: str, category: str) -> bool:
 
 def _without_looks(character: str) -> str:
     looks = unicodedata.decomposition(character).startswith(_LOOKS)
-    if looks or ord(character) in _LIGATURES:
+    if looks or ord(character) in _LIGATURES or ord(character) in _IN_CIRCLES:
         return unicodedata.normalize("NFKC", character)
-    return character
+    capital = unicodedata.name(character, "").removeprefix(_SMALL_CAPITAL)
+    return capital.lower() if len(capital) == 1 else character
 
 
 def _is_spoken(character: str) -> bool:
