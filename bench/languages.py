@@ -14,6 +14,7 @@ from lipwright.phones.ipa import nearest
 from lipwright.phones.languages import language_name, languages, sample_text
 
 VOICES = {"en": "en-us"}
+SETS = {"cmn": "mandarin"}
 
 
 @dataclass
@@ -36,7 +37,8 @@ class Language:
 def measured() -> Iterator[Language]:
     for code in languages():
         speech = pipeline.say(sample_text(code), voice=VOICES.get(code, code))
-        yield Language(code, load_reduction("ipa").rows(speech.phones)[1])
+        reduction = load_reduction(speech.phones.phone_set, SETS.get(code, "common"))
+        yield Language(code, reduction.rows(speech.phones)[1])
 
 
 def print_lines() -> None:

@@ -15,7 +15,7 @@ def test_the_lips_close_on_every_sound_of_the_lips(language: str) -> None:
     voice = {"en": "en-us"}.get(language, language)
     speech = pipeline.say(sample_text(language), voice=voice)
     animation = pipeline.animate(speech, rate=RATE).animation
-    rows, report = load_reduction("ipa").rows(speech.phones)
+    rows, report = load_reduction(speech.phones.phone_set).rows(speech.phones)
     times = animation.start + np.arange(len(animation)) / RATE
     for label, pose in (("bmp", "PBM"), ("f", "FV")):
         curve = animation.control(pose)

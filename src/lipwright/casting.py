@@ -18,6 +18,8 @@ if TYPE_CHECKING:
     from lipwright.engines.bigram import BigramEngine, BigramSet
 
 DEFAULT_SET = "english"
+SETS_BY_LANGUAGE = {"cmn": "mandarin", "zh": "mandarin"}
+"""Languages that have a set of their own, by their first part."""
 
 
 def engine_for(
@@ -50,13 +52,11 @@ def character_file(character: str | Path | None) -> CharacterFile | None:
 
 
 def _chosen_set(given: str | Path | None, own: str, language: str) -> str:
-    """Return the set to animate with: the user's, else the character's, else a default.
-
-    ``language`` is that of the line: one that has a set of its own is answered here.
-    """
+    """Return the set to animate with: the user's, else the character's, else the language's."""
     if given is not None:
         return str(given)
-    return own or DEFAULT_SET
+    first = language.replace("_", "-").split("-")[0].lower()
+    return own or SETS_BY_LANGUAGE.get(first, DEFAULT_SET)
 
 
 @lru_cache(maxsize=32)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 
 from lipwright.errors import LabelError, LipwrightError
@@ -20,7 +20,8 @@ def load_reduction(source: str, target: str = "common") -> Reduction:
         A phone set's name, or the path of a reduction file ending in ``.json``.
     target : str
         The phone set to reduce to: its name, or its path. IPA and SAMPA reduce to any set
-        whose classes have segments in IPA.
+        whose classes have segments in IPA. Where it extends another set, that one's
+        reduction holds for every other label that the reduction to this one does not name.
 
     Raises
     ------
@@ -31,16 +32,41 @@ def load_reduction(source: str, target: str = "common") -> Reduction:
         return Reduction(source, target, {}, lambda label: ((Piece(label),), True))
     by_path = source.endswith(".json")
     path = Path(source) if by_path else DATA / f"{source}-to-{target}.json"
+    finder = None if by_path else _finder(source, target)
+    base = "" if by_path or finder else _extended(target)
+    if base:
+        own = read_table(path).pieces if path.exists() else {}
+        others = load_reduction(source, base)
+        return Reduction(source, target, own, partial(_own_or_base, own, others))
     if by_path or path.exists():
         table = read_table(path)
         finder = _finder(table.source, table.target)
         return Reduction(table.source, table.target, table.pieces, finder)
-    finder = _finder(source, target)
     if finder is None:
         raise LabelError(
             f"no reduction from {source!r} to {target!r}", cure="write one, and give its path"
         )
     return Reduction(source, load_phone_set(target).name, {}, finder)
+
+
+def _extended(target: str) -> str:
+    """Return the phone set that the target adds labels to, if it does."""
+    try:
+        return load_phone_set(target).extends
+    except LabelError:
+        return ""  # the caller names both ends of what is missing
+
+
+def _own_or_base(
+    own: dict[str, tuple[Piece, ...]], base: Reduction, label: str
+) -> tuple[tuple[Piece, ...], bool] | None:
+    """Return what a label becomes: by the own rows, else by the base."""
+    if label in own:
+        return own[label], True
+    try:
+        return base.of(label)
+    except LabelError:
+        return None
 
 
 def _finder(source: str, target: str) -> Finder | None:

@@ -36,6 +36,7 @@ class _Document(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     aliases: dict[str, str] = {}
     stress: bool = False
     case: bool = False
+    extends: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,6 +55,8 @@ class PhoneSet:
         Whether a digit at the end of a label is a stress mark, to be dropped.
     case : bool
         Whether upper and lower case differ.
+    extends : str
+        The set that this one adds labels to: what reduces to that one reduces to this.
     """
 
     name: str
@@ -62,6 +65,7 @@ class PhoneSet:
     aliases: dict[str, str] = field(default_factory=dict)
     stress: bool = False
     case: bool = False
+    extends: str = ""
     labels: tuple[str, ...] = field(init=False)
     """The labels, in the order of the file."""
 
@@ -113,7 +117,15 @@ def load_phone_set(name: str) -> PhoneSet:
     twice = {label for label in labels if labels.count(label) > 1}
     if twice:
         raise LabelError(f"{', '.join(sorted(twice))} stands twice", where=str(path))
-    return PhoneSet(read.name, tuple(read.phones), read.about, read.aliases, read.stress, read.case)
+    return PhoneSet(
+        read.name,
+        tuple(read.phones),
+        read.about,
+        read.aliases,
+        read.stress,
+        read.case,
+        read.extends,
+    )
 
 
 def phone_set_names() -> tuple[str, ...]:

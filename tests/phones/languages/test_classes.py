@@ -52,25 +52,29 @@ def test_the_table_holds_every_language_that_has_a_paragraph() -> None:
     assert len(languages()) >= 30
 
 
+IN_IPA = tuple(code for code in TABLE if code != "cmn")
+"""Mandarin is spoken in the sounds of pinyin: ``tests/schedule/mandarin``."""
+
+
 @pytest.fixture(scope="module")
 def spoken() -> dict[str, Speech]:
-    return {code: say(sample_text(code), voice=VOICES.get(code, code)) for code in languages()}
+    return {code: say(sample_text(code), voice=VOICES.get(code, code)) for code in IN_IPA}
 
 
-@pytest.mark.parametrize("language", TABLE)
+@pytest.mark.parametrize("language", IN_IPA)
 def test_a_paragraph_is_spoken_whole(language: str, spoken: dict[str, Speech]) -> None:
     speech = spoken[language]
     assert {phone.label for phone in speech.phones} - {"sil"} == set(TABLE[language])
     assert speech.notes == ()
     assert 20 < speech.duration < 60
     assert 5 <= len(sample_text(language).splitlines()) <= 8
-    if language not in ("cmn", "ja"):  # their words are cut by the voice
+    if language != "ja":  # its words are cut by the voice
         assert len(speech.words) == sum(
             any(map(str.isalpha, word)) for word in sample_text(language).split()
         )
 
 
-@pytest.mark.parametrize("language", TABLE)
+@pytest.mark.parametrize("language", IN_IPA)
 def test_the_report_counts_what_is_exact(language: str, spoken: dict[str, Speech]) -> None:
     track = spoken[language].phones
     rows, report = load_reduction("ipa").rows(track)

@@ -12,7 +12,7 @@ import json
 import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
-from functools import lru_cache
+from functools import cache, lru_cache
 from pathlib import Path
 from typing import NoReturn
 
@@ -293,13 +293,21 @@ def load_pictures(spec: str | Path) -> PictureCharacter:
         If the list cannot work.
     """
     built_in = str(spec) in BUILT_IN_PICTURES
-    path = DATA / f"{spec}.json" if built_in else Path(spec)
-    if not path.suffix and not path.exists():
+    path = Path(spec)
+    if not built_in and not path.suffix and not path.exists():
         raise CharacterError(
             f"no mouth shapes {str(spec)!r}",
             expected=f"{', '.join(BUILT_IN_PICTURES)}, or the path of a file",
         )
-    where = str(spec)
+    return _built_in(str(spec)) if built_in else _read(path, str(spec))
+
+
+@cache
+def _built_in(name: str) -> PictureCharacter:
+    return _read(DATA / f"{name}.json", name)
+
+
+def _read(path: Path, where: str) -> PictureCharacter:
     read = convert(read_document(path, format=FORMAT, version=VERSION), _Document, where)
     found = PictureCharacter(
         read.name,

@@ -54,8 +54,9 @@ class BigramEntry(_Struct, frozen=True):
 class _Set(_Struct, frozen=True):
     version: int
     name: str
-    rules: Rules
     bigrams: list[BigramEntry]
+    rules: Rules | None = None
+    base: str = ""
     about: str = ""
     phone_set: str = "common"
     boundary: float = 0.5
@@ -90,29 +91,61 @@ def _built_in(name: str) -> BigramSet:
 
 
 def read_set(path: str | Path) -> BigramSet:
-    """Return the set in a file."""
+    """Return the set in a file, with what it takes from the set that it builds on."""
+    return _read_set(Path(path), ())
+
+
+def _read_set(path: Path, above: tuple[Path, ...]) -> BigramSet:
     where = str(path)
     read = convert(read_document(path, format=FORMAT, version=VERSION), _Set, where)
     try:
         # A user's own phone set is a file beside the set.
         own = read.phone_set.endswith(".json")
-        phone_set = str(Path(path).parent / read.phone_set) if own else read.phone_set
+        phone_set = str(path.parent / read.phone_set) if own else read.phone_set
         classes = load_phone_set(phone_set)
         for label in (*read.phones, *read.reach):
             check_label(label, classes)
+        base = _base(read, path, above, classes)
         return BigramSet(
             read.name,
             phone_set,
-            read.rules,
-            read_bigrams(read.bigrams, read.boundary, read.name, classes),
-            {label: read_curves(c, f"phone {label!r}") for label, c in read.phones.items()},
-            read.reach,
-            read.presets,
+            base.rules if read.rules is None else read.rules,
+            {**base.bigrams, **read_bigrams(read.bigrams, read.boundary, read.name, classes)},
+            {
+                **base.singles,
+                **{label: read_curves(c, f"phone {label!r}") for label, c in read.phones.items()},
+            },
+            {**base.reach, **read.reach},
+            {**base.presets, **read.presets},
             read.about,
-            digest_of(read_bytes(path)),
+            digest_of(base.digest.encode() + read_bytes(path)),
         )
     except InputError as error:
         raise error.at(where) from None
+
+
+def _base(read: _Set, path: Path, above: tuple[Path, ...], classes: PhoneSet) -> BigramSet:
+    """Return the set that a file builds on: the file names only what it adds or changes."""
+    if not read.base:
+        if read.rules is None:
+            raise SetError("no rules", expected="'rules', or a 'base' that has them")
+        return BigramSet(read.name, read.phone_set, read.rules, {})
+    above = (*above, path.resolve())
+    if not read.base.endswith(".json"):
+        base = load_set(read.base)
+    elif (beside := (path.parent / read.base).resolve()) in above:
+        raise SetError(f"the base {read.base!r} builds on this set", cure="name another base")
+    else:
+        base = _read_set(beside, above)
+    strange = [
+        label for label in load_phone_set(base.phone_set).labels if label not in classes.labels
+    ]
+    if strange:
+        raise SetError(
+            f"{classes.name!r} lacks {' '.join(strange)}, which the base {read.base!r} has",
+            cure="name a phone set that holds all classes of the base",
+        )
+    return base
 
 
 def digest_of(data: bytes) -> str:
@@ -169,30 +202,64 @@ def read_bigrams(
     return bigrams
 
 
-def set_bytes(of: BigramSet, boundary: float = 0.5) -> bytes:
-    """Return the content of a set's file: stable order, one key list per line."""
-    lines = [
-        "{",
+def set_bytes(of: BigramSet, boundary: float = 0.5, base: BigramSet | None = None) -> bytes:
+    """Return the content of a set's file: stable order, one key list per line.
+
+    Parameters
+    ----------
+    of : BigramSet
+    boundary : float
+        Of bigrams that do not say their own.
+    base : BigramSet, optional
+        A set that comes with Lipwright: only pairs and phones that it lacks are written.
+    """
+    if base is not None:
+        return _lines_bytes(
+            [
+                *_head(of, boundary),
+                f'  "base": {quote(base.name)},',
+                *_phones_text({n: c for n, c in of.singles.items() if n not in base.singles}),
+                *_bigrams_text(
+                    [b for p, b in of.bigrams.items() if p not in base.bigrams], boundary
+                ),
+            ]
+        )
+    return _lines_bytes(
+        [
+            *_head(of, boundary),
+            f'  "reach": {_flat({k: quote(v) for k, v in of.reach.items()})},',
+            f'  "rules": {_rules_text(of.rules, "  ")},',
+            '  "presets": {',
+            *_joined(f"    {quote(n)}: {_rules_text(r, '    ')}" for n, r in of.presets.items()),
+            "  },",
+            *_phones_text(of.singles),
+            *_bigrams_text(of.bigrams.values(), boundary),
+        ]
+    )
+
+
+def _head(of: BigramSet, boundary: float) -> list[str]:
+    return [
         f'  "format": {quote(FORMAT)},',
         f'  "version": {VERSION},',
         f'  "name": {quote(of.name)},',
         f'  "about": {quote(of.about)},',
         f'  "phone_set": {quote(of.phone_set)},',
         f'  "boundary": {format_number(boundary)},',
-        f'  "reach": {_flat({k: quote(v) for k, v in of.reach.items()})},',
-        f'  "rules": {_rules_text(of.rules, "  ")},',
-        '  "presets": {',
-        *_joined(f"    {quote(n)}: {_rules_text(r, '    ')}" for n, r in of.presets.items()),
-        "  },",
-        '  "phones": {',
-        *_joined(f"    {quote(n)}: {_curves_text(c, '    ')}" for n, c in of.singles.items()),
-        "  },",
-        '  "bigrams": [',
-        *_joined(_bigram_text(bigram, boundary) for bigram in of.bigrams.values()),
-        "  ]",
-        "}",
     ]
-    return ("\n".join(lines) + "\n").encode()
+
+
+def _phones_text(singles: Mapping[str, Curves]) -> list[str]:
+    rows = _joined(f"    {quote(n)}: {_curves_text(c, '    ')}" for n, c in singles.items())
+    return ['  "phones": {', *rows, "  },"]
+
+
+def _bigrams_text(bigrams: Iterable[Bigram], boundary: float) -> list[str]:
+    return ['  "bigrams": [', *_joined(_bigram_text(b, boundary) for b in bigrams), "  ]"]
+
+
+def _lines_bytes(lines: list[str]) -> bytes:
+    return ("\n".join(["{", *lines, "}"]) + "\n").encode()
 
 
 def _joined(rows: Iterable[str]) -> list[str]:

@@ -14,6 +14,7 @@ from lipwright.schedule.say.voices import (
     Voice,
     as_voices,
     check_script,
+    is_mandarin,
     library_name,
     resolve,
     script_notes,
@@ -58,8 +59,8 @@ def say(
     Returns
     -------
     Speech
-        With sound, words, and phones in the set ``"ipa"`` (``"arpabet"`` from
-        Festival). The phones cover the sound from 0 to its end.
+        With sound, words, and phones in the set ``"ipa"`` (``"pinyin"`` for Mandarin,
+        ``"arpabet"`` from Festival). The phones cover the sound from 0 to its end.
 
     Raises
     ------
@@ -68,7 +69,7 @@ def say(
     InputError
         If rate, pitch or engine are out of range.
     MissingExtraError
-        If there is no synthesiser.
+        If there is no synthesiser, or what reads Chinese characters is missing.
     """
     _check_number("rate", rate, _RATES, "words per minute")
     if pitch is not None:
@@ -83,6 +84,8 @@ def say(
     if engine not in _ENGINES:
         raise InputError(f"no speech engine {engine!r}", expected=" or ".join(_ENGINES))
     utterance = prepare(text)
+    if engine == "espeak" and is_mandarin(voice):
+        return _say_in_mandarin(utterance.spoken, text, voice, rate, pitch)
     if engine == "festival" or voice.split(":")[0] == "festival":
         return _say_with_festival(utterance, text, voice, rate, pitch)
     spoken, notes = _speak(utterance.spoken, voice, round(rate), pitch)
@@ -126,6 +129,14 @@ def _say_with_festival(
     return from_festival(festival.speak(plain, name, rate=rate), plain, text=text)
 
 
+def _say_in_mandarin(plain: str, text: str, voice: str, rate: float, pitch: float | None) -> Speech:
+    from lipwright.schedule.say import mandarin  # its tables are needed for no other voice
+
+    line = mandarin.prepare(plain)
+    spoken, notes = _speak(line.spoken, voice, round(rate), pitch, mnemonics=True)
+    return mandarin.from_espeak(spoken, line, text=text, notes=notes)
+
+
 def _check_number(name: str, value: float, bounds: tuple[int, int], unit: str) -> None:
     low, high = bounds
     if not low <= value <= high:  # NaN fails as well
@@ -133,7 +144,7 @@ def _check_number(name: str, value: float, bounds: tuple[int, int], unit: str) -
 
 
 def _speak(
-    text: str, voice: str, rate: int, pitch: float | None
+    text: str, voice: str, rate: int, pitch: float | None, *, mnemonics: bool = False
 ) -> tuple[espeak.Spoken, tuple[str, ...]]:
     """Speak with the voice of that name, or with its language's where the region has none."""
 
@@ -144,6 +155,7 @@ def _speak(
             rate=rate,
             pitch=None if pitch is None else round(pitch),
             accept=lambda language: check_script(text, language),
+            mnemonics=mnemonics,
         )
 
     try:

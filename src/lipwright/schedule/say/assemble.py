@@ -34,10 +34,7 @@ def from_espeak(
     TextError
         If not a single phone was spoken.
     """
-    labels, edges, positions = _plain(spoken)
-    phones = _timed(labels, edges, positions, spoken.rate)
-    sound, phones = _with_silence(Sound(spoken.samples, spoken.rate), phones)
-    phones = _with_closures(sound, phones)
+    sound, phones = timed(spoken)
     return Speech(
         phones=_track(phones, "ipa"),
         words=_words(utterance, phones),
@@ -47,6 +44,20 @@ def from_espeak(
         source="say",
         notes=notes,
     )
+
+
+def timed(spoken: espeak.Spoken) -> tuple[Sound, list[TimedPhone]]:
+    """Return what was spoken with silence around it, and its phones as IPA in time.
+
+    Raises
+    ------
+    TextError
+        If not a single phone was spoken.
+    """
+    labels, edges, positions = _plain(spoken)
+    phones = _timed(labels, edges, positions, spoken.rate)
+    sound, phones = _with_silence(Sound(spoken.samples, spoken.rate), phones)
+    return sound, _with_closures(sound, phones)
 
 
 def from_festival(spoken: festival.Spoken, utterance: Utterance, *, text: str) -> Speech:

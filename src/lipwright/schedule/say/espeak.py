@@ -80,6 +80,7 @@ def speak(
     rate: int,
     pitch: int | None,
     accept: Callable[[str], None] = lambda language: None,
+    mnemonics: bool = False,
 ) -> Spoken:
     """Return the sound and phones of a text.
 
@@ -95,6 +96,8 @@ def speak(
         0..99; None for the voice's own.
     accept : function, optional
         Called with the voice's language before it speaks; what it raises stops all.
+    mnemonics : bool
+        Whether ``[[ ]]`` in the text holds the library's own names of phonemes.
 
     Raises
     ------
@@ -106,6 +109,7 @@ def speak(
         If the child program fails.
     """
     request = {"task": "say", "text": text, "voice": voice, "rate": rate, "pitch": pitch}
+    request["mnemonics"] = mnemonics
     patience = _PATIENCE + _PATIENCE_PER_CHARACTER * len(text)
     samples_per_second, language = 0, ""
     sound = bytearray()

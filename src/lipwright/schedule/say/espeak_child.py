@@ -6,7 +6,7 @@ standard output with lines of JSON. After a line with ``samples``, that many 16-
 samples follow as they are. One process serves one request: espeak's state is global,
 and a line spoken second differs by fractions of a millisecond from one spoken first.
 
-Requests: ``{"task": "say", "text", "voice", "rate", "pitch"}``,
+Requests: ``{"task": "say", "text", "voice", "rate", "pitch", "mnemonics"}``,
 ``{"task": "pronounce", "words", "voice"}``, ``{"task": "voices"}``; each with
 ``libraries``, pairs of a library's path and its data's path (or null), tried in order.
 """
@@ -24,7 +24,7 @@ Library = tuple[str, "str | None"]
 # From speak_lib.h, the library's public interface.
 _RETRIEVAL = 1  # the sound comes to the callback
 _PHONEME_EVENTS, _PHONEME_IPA, _DONT_EXIT = 0x0001, 0x0002, 0x8000
-_UTF8, _END_PAUSE = 0x0001, 0x1000
+_UTF8, _MNEMONICS, _END_PAUSE = 0x0001, 0x0100, 0x1000
 _RATE, _PITCH = 1, 3
 _EVENT_END, _EVENT_WORD, _EVENT_PHONEME = 0, 1, 7
 _BUFFER_MS = 200
@@ -154,7 +154,7 @@ class Espeak:
         folder = self.info()[1] / "voices" / "!v"
         return sorted(path.name for path in folder.iterdir()) if folder.is_dir() else []
 
-    def say(self, text: str, rate: int, pitch: int | None) -> None:
+    def say(self, text: str, rate: int, pitch: int | None, *, mnemonics: bool) -> None:
         """Speak: one answer per stretch of sound, with the phones and words in it."""
         self.library.espeak_SetParameter(_RATE, rate, 0)
         if pitch is not None:
@@ -162,7 +162,7 @@ class Espeak:
         callback = _Callback(_take)
         self.library.espeak_SetSynthCallback(callback)
         data = text.encode() + b"\0"
-        flags = _UTF8 | _END_PAUSE
+        flags = _UTF8 | _END_PAUSE | (_MNEMONICS if mnemonics else 0)
         if self.library.espeak_Synth(data, len(data), 0, 1, 0, flags, None, None) != 0:
             raise Refused("synth", found="espeak-ng does not speak this text")
         self.library.espeak_Synchronize()
@@ -247,7 +247,8 @@ def main() -> int:
         if request["task"] == "say":
             answer({"rate": espeak.rate, "language": language})
             sys.stdout.buffer.flush()
-            espeak.say(request["text"], request["rate"], request["pitch"])
+            mnemonics = request["mnemonics"]
+            espeak.say(request["text"], request["rate"], request["pitch"], mnemonics=mnemonics)
         else:
             answer({"phones": [espeak.pronounce(word) for word in request["words"]]})
         answer({"done": True})

@@ -129,6 +129,20 @@ def library_name(voice: str) -> str:
     return _FILES.get(spelled, spelled) + plus + variant
 
 
+def is_mandarin(voice: str) -> bool:
+    """Whether a voice's name means espeak-ng's for Mandarin.
+
+    Examples
+    --------
+    >>> is_mandarin("cmn"), is_mandarin("zh-CN+f3"), is_mandarin("zh-hk"), is_mandarin("yue")
+    (True, True, False, False)
+    """
+    name = library_name(voice).partition("+")[0].lower()
+    language = name.split("-")[0]
+    spoken = name.startswith(("sit/cmn", "chinese (mandarin")) or language in ("cmn", "zh")
+    return spoken and "yue" not in name
+
+
 def resolve(voice: str, installed: Sequence[Voice]) -> tuple[str, bool]:
     """Return the file of the voice that a name means, and whether it is exactly that one.
 
