@@ -74,6 +74,7 @@ def align(
     sound: Sound | str | Path,
     text: str,
     *,
+    language: str = "en-us",
     lexicon: str | Path | None = None,
     progress: Progress | None = None,
 ) -> Speech:
@@ -83,9 +84,13 @@ def align(
     ----------
     sound : Sound or path
     text : str
-        What is said in it, in English.
+        What is said in it.
+    language : str
+        What it is said in: ``"de"``, ``"pt-br"``, or another of espeak-ng's; the phones of
+        all but English come in IPA.
     lexicon : path, optional
-        Pronunciations of words that no dictionary has, in the CMU dictionary's form.
+        Pronunciations of English words that no dictionary has, in the CMU dictionary's
+        form.
     progress : function, optional
         Called with the share that is done, 0..1.
 
@@ -93,13 +98,15 @@ def align(
     ------
     SoundError, TextError
         If either cannot be used.
+    MissingExtraError
+        If the language is not English and the extra ``tts`` is not installed.
     """
     from lipwright.schedule.align import align as find
 
     path = Path(lexicon) if lexicon is not None else None
     with _named(sound):
         heard = _sound(sound)
-        return _told(heard, find(heard, text, lexicon=path, progress=progress))
+        return _told(heard, find(heard, text, language=language, lexicon=path, progress=progress))
 
 
 def recognise(sound: Sound | str | Path, *, progress: Progress | None = None) -> Speech:

@@ -249,6 +249,24 @@ def test_unknown_voice_and_silly_speed(tmp_path: Path, capsys: pytest.CaptureFix
     assert "frames" in fails(capsys, tmp_path, "say", "Hi", "--rate", "0", "-o", output)
 
 
+BAD_LANGUAGES = {
+    "unknown": ("xyz", "Hallo", "no language 'xyz'"),
+    "another script": ("de", "Привет мир", "Choose one that does: --language ru"),
+    "mixed scripts": ("ar", "مرحبا Привет", "does not read Cyrillic"),
+    "nothing to say": ("fr", "…", "nothing to say"),
+    "too long a text": ("it", "parole " * 200, "too short for 200 words"),
+}
+
+
+@pytest.mark.parametrize("name", BAD_LANGUAGES)
+def test_languages_that_do_not_go_with_the_text(
+    name: str, line_wav: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    language, text, words = BAD_LANGUAGES[name]
+    given = ("--text", text, "--language", language, "-o", tmp_path / "a.json")
+    assert words in fails(capsys, tmp_path, "animate", line_wav, *given)
+
+
 # ---- outputs ---------------------------------------------------------------------------------
 
 
@@ -282,6 +300,8 @@ def test_wrong_usage_is_status_2(tmp_path: Path, capsys: pytest.CaptureFixture[s
         ("speek", "Hi"),
         ("animate", "a.wav", "--text", "a", "--labels", "b.lab", "-o", tmp_path / "a.json"),
         ("say", "Hi", "-o", tmp_path / "a.json", "--engine", "steam"),
+        ("animate", "a.wav", "--language", "de", "-o", tmp_path / "a.json"),
+        ("phones", "a.wav", "--labels", "b.lab", "--language", "de", "-o", tmp_path / "a.lab"),
     ):
         assert "Error" in fails(capsys, tmp_path, *arguments, status=2)
 

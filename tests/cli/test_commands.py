@@ -88,6 +88,18 @@ def test_animate_takes_words_labels_or_nothing(line_wav: Path, tmp_path: Path) -
     assert made["alone"].control("open").max() > 0.2
 
 
+def test_words_of_another_language_are_put_in_time(tmp_path: Path) -> None:
+    text = "Bäume grünen früh."
+    assert run("say", text, "--voice", "de", "-o", tmp_path / "said.json") == 0
+    given = (tmp_path / "said.wav", "--text", text, "--language", "de")
+    assert run("animate", *given, "-o", tmp_path / "a.json") == 0
+    assert run("phones", *given, "-o", tmp_path / "a.TextGrid") == 0
+    said, aligned = (Animation.load(tmp_path / name) for name in ("said.json", "a.json"))
+    assert aligned.words.labels == ("Bäume", "grünen", "früh")
+    assert np.abs(aligned.control("PBM") - said.control("PBM")).mean() < 0.05
+    assert "yː" in (tmp_path / "a.TextGrid").read_text("utf-8")
+
+
 def test_rate_and_preset_and_overrides_reach_the_engine(tmp_path: Path) -> None:
     gains = {"format": "lipwright/bigram-overrides", "version": 1, "name": "shy"}
     (tmp_path / "shy.json").write_text(json.dumps({**gains, "gains": {"open": 0.3}}))
@@ -175,6 +187,23 @@ def test_interrupting_leaves_nothing_half_written(tmp_path: Path) -> None:
         time.sleep(0.5)
         process.send_signal(signal.SIGINT)
         _, errors = process.communicate(timeout=20)
+    assert process.returncode == 130
+    assert errors.strip() == "lipwright: interrupted; nothing was left half-written"
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["long.txt"]
+
+
+def test_interrupting_while_another_language_is_read_is_one_line(
+    line_wav: Path, tmp_path: Path
+) -> None:
+    text = tmp_path / "long.txt"
+    text.write_text("Eine sehr lange Geschichte. " * 3000, "utf-8")
+    output = tmp_path / "a.json"
+    arguments = [line_wav, "--text-file", text, "--language", "de", "-o", output]
+    command = [sys.executable, "-m", "lipwright", "animate", *map(str, arguments)]
+    process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
+    time.sleep(1.5)
+    process.send_signal(signal.SIGINT)
+    _, errors = process.communicate(timeout=20)
     assert process.returncode == 130
     assert errors.strip() == "lipwright: interrupted; nothing was left half-written"
     assert sorted(path.name for path in tmp_path.iterdir()) == ["long.txt"]

@@ -101,6 +101,10 @@ _recording = stack(
         "--lexicon", type=click.Path(path_type=Path), metavar="FILE",
         help="Pronunciations of unusual words: WORD  P R OH N",
     ),
+    click.option(
+        "--language", metavar="NAME",
+        help="What --text is in, such as de or pt-br; English where it is not given.",
+    ),
 )  # fmt: skip
 
 
@@ -114,6 +118,7 @@ class Recording:
     labels: Path | None
     phone_set: str | None
     lexicon: Path | None
+    language: str | None
 
     @property
     def files(self) -> tuple[object, ...]:

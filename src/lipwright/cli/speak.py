@@ -129,8 +129,8 @@ def animate(
 ) -> None:
     """Animate the recording SOUND.
 
-    With --text its words are put in time; with --labels phone times are taken as they are;
-    with neither the words are recognised (English).
+    With --text its words are put in time, in any --language; with --labels phone times are
+    taken as they are; with neither the words are recognised (English).
     """
     _check(outputs, how, *recording.files)
     speech = _speech(recording)
@@ -164,6 +164,10 @@ def _speech(given: Recording) -> Speech:
     named = [name for name, value in ways.items() if value is not None]
     if len(named) > 1:
         raise click.UsageError(f"give one of {' and '.join(named)}, not both")
+    if given.language is not None and (given.labels is not None or not named):
+        raise click.UsageError(
+            "--language goes with --text or --text-file: what is said is recognised in English only"
+        )
     if given.labels is not None:
         return pipeline.from_labels(given.labels, given.sound, phone_set=given.phone_set)
     text = read_text(given.text_file) if given.text_file is not None else given.text
@@ -171,7 +175,13 @@ def _speech(given: Recording) -> Speech:
         with progress("recognising") as report:
             return pipeline.recognise(given.sound, progress=report)
     with progress("aligning") as report:
-        return pipeline.align(given.sound, text, lexicon=given.lexicon, progress=report)
+        return pipeline.align(
+            given.sound,
+            text,
+            language=given.language or "en-us",
+            lexicon=given.lexicon,
+            progress=report,
+        )
 
 
 def read_text(path: Path) -> str:

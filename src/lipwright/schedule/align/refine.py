@@ -26,6 +26,7 @@ _STEP = 80  # samples between two levels: 5 ms
 _SHORTEST = 0.01  # s that a moved boundary leaves of a phone
 _STOPS = frozenset(("p", "t", "k", "b", "d", "g", "ch", "jh"))
 _CLOSURE = 0.08  # s; a shorter pause before a stop is its closure
+_FIRST_CLOSURE = 0.06  # s, as long as :mod:`lipwright.schedule.say` makes it
 _EDGE = 0.35  # of the way from the pause's level to the phrase's, in decibels
 _OVERSHOOT = 0.04  # s that a phrase may reach beyond its decoded end
 
@@ -65,7 +66,9 @@ _BIAS = {
 }
 
 
-def refine(phones: Phones, samples: NDArray[np.float32]) -> Phones:
+def refine(
+    phones: Phones, samples: NDArray[np.float32], stages: Sequence[Stage] | None = None
+) -> Phones:
     """Return the phones with their boundaries corrected.
 
     Parameters
@@ -74,8 +77,10 @@ def refine(phones: Phones, samples: NDArray[np.float32]) -> Phones:
         Without gaps, from 0 on.
     samples : (N,) float32
         The piece they lie in, at 16 kHz.
+    stages : sequence of Stage, optional
+        ``STAGES`` where they are not given.
     """
-    for stage in STAGES:
+    for stage in STAGES if stages is None else stages:
         phones = stage(phones, samples)
     return phones
 
@@ -122,7 +127,23 @@ def usual_bias(phones: Phones, samples: NDArray[np.float32]) -> Phones:
     return _with_edges(phones, edges)
 
 
+def closures_after_pauses(phones: Phones, samples: NDArray[np.float32]) -> Phones:
+    """Let a stop that begins a phrase start before its burst: nobody hears it close."""
+    edges = _edges(phones)
+    for index, (before, phone) in enumerate(pairwise(phones), 1):
+        if before.is_pause and phone.label in _STOPS:
+            edges[index] -= min(_FIRST_CLOSURE, 0.5 * (edges[index] - edges[index - 1]))
+    return _with_edges(phones, edges)
+
+
 STAGES: tuple[Stage, ...] = (closures, changes_of_sound, phrase_edges, usual_bias)
+# Of other languages it is not known what hands mark, but what the synthesiser means.
+OTHER_STAGES: tuple[Stage, ...] = (
+    closures,
+    changes_of_sound,
+    phrase_edges,
+    closures_after_pauses,
+)
 
 
 def _edges(phones: Sequence[Heard]) -> list[float]:

@@ -29,6 +29,8 @@ def as_speech(
     text: str,
     source: str,
     notes: Sequence[str] = (),
+    language: str = "en-us",
+    phone_set: str = "arpabet",
 ) -> Speech:
     """Return the speech.
 
@@ -38,13 +40,15 @@ def as_speech(
         Phones and pauses in order, from 0 on.
     labels : sequence of str
         The tokens, as the user wrote them.
+    phone_set : str
+        Of the labels of what was heard.
     """
     return Speech(
-        PhoneTrack(_phones(heard, sound.duration)),
+        PhoneTrack(_phones(heard, sound.duration), phone_set),
         _words(heard, labels),
         sound,
         text,
-        "en-us",
+        language,
         source,
         line_confidence(heard),
         (*notes, *_warnings(heard, labels)),

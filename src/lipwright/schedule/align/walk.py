@@ -24,7 +24,7 @@ from lipwright.schedule.align.model import AcousticModel
 from lipwright.schedule.align.network import shortest
 from lipwright.schedule.align.piece import align_piece
 from lipwright.schedule.align.prepare import LONGEST, cut
-from lipwright.schedule.align.refine import refine
+from lipwright.schedule.align.refine import STAGES, Stage, refine
 
 Progress = Callable[[float], None]
 
@@ -48,6 +48,7 @@ def walk(
     samples: NDArray[np.float32],
     tokens: Sequence[Spoken],
     progress: Progress | None = None,
+    stages: Sequence[Stage] = STAGES,
 ) -> Walked:
     """Align a sound of any length.
 
@@ -58,6 +59,8 @@ def walk(
     tokens : sequence of Spoken
     progress : function, optional
         Called with 0..1 as the sound is gone through.
+    stages : sequence of Stage
+        What corrects the boundaries.
 
     Returns
     -------
@@ -68,16 +71,20 @@ def walk(
     if len(samples) <= LONGEST * RATE:
         heard = align_piece(model, samples, tokens)
         tell(1.0)
-        return Walked(refine(heard, samples) if heard else ())
-    found = _follow(model, samples, tokens, tell)
+        return Walked(refine(heard, samples, stages) if heard else ())
+    found = _follow(model, samples, tokens, tell, stages)
     placed = {phone.token for phone in found if phone.token != NO_TOKEN}
     if len(placed) >= 0.5 * len(tokens):
         return Walked(found)
-    return Walked(_proportional(model, samples, tokens, tell), forced=True)
+    return Walked(_proportional(model, samples, tokens, tell, stages), forced=True)
 
 
 def _follow(
-    model: AcousticModel, samples: NDArray[np.float32], tokens: Sequence[Spoken], tell: Progress
+    model: AcousticModel,
+    samples: NDArray[np.float32],
+    tokens: Sequence[Spoken],
+    tell: Progress,
+    stages: Sequence[Stage],
 ) -> tuple[Heard, ...]:
     result: list[Heard] = []
     at, word = 0, 0
@@ -87,7 +94,7 @@ def _follow(
         window = _window(tokens, word, len(piece) / RATE)
         heard = _fitting(model, piece, window, final=final and len(window) == len(tokens) - word)
         keep, resume = (heard, len(piece)) if final else _sure(heard, len(piece))
-        keep = refine(keep, piece[:resume]) if keep else ()
+        keep = refine(keep, piece[:resume], stages) if keep else ()
         result += _moved(keep, at / RATE, word)
         said = [phone.token for phone in keep if phone.token != NO_TOKEN]
         word += max(said) + 1 if said else 0
@@ -145,7 +152,11 @@ def _sure(heard: tuple[Heard, ...], samples: int) -> tuple[tuple[Heard, ...], in
 
 
 def _proportional(
-    model: AcousticModel, samples: NDArray[np.float32], tokens: Sequence[Spoken], tell: Progress
+    model: AcousticModel,
+    samples: NDArray[np.float32],
+    tokens: Sequence[Spoken],
+    tell: Progress,
+    stages: Sequence[Stage],
 ) -> tuple[Heard, ...]:
     """Give every piece its share of the text: when the words do not fit the sound."""
     result: list[Heard] = []
@@ -157,7 +168,7 @@ def _proportional(
         piece, share = samples[at:stop], tokens[word:upto]
         heard = align_piece(model, piece, share) if share else ()
         heard = heard or _wordless(piece)
-        result += _moved(refine(heard, piece), at / RATE, word)
+        result += _moved(refine(heard, piece, stages), at / RATE, word)
         at, word = stop, upto
         tell(at / len(samples))
     return tuple(result)
