@@ -46,7 +46,7 @@ def test_a_character_speaks_and_why_tells_what_it_overrode(
     line = tmp_path / "a.json"
     report = Animation.load(line).report["character"]
     assert (report["name"], report["file"]) == ("troll", troll.as_posix())
-    asked = ("set", "why", line, "--time", time_of(line, 0, 0.75), "--control", "W")
+    asked = ("set", "why", line, "--time", time_of(line, 0, 0.55), "--control", "W")
     assert run(*asked) == 0
     told = capsys.readouterr()
     assert f"character troll, {troll}, overrides; english itself: " in told.out
