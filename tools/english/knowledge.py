@@ -12,9 +12,8 @@ closure. What recorded faces say of whole classes (how far open on average, how 
 early) has moved them: s, z and l part the lips farther than was thought, r, w and th less;
 between vowels the jaw goes back up; lips spread less than they round; a mouth that speaks is
 narrower than one at rest.
-Levels chosen in this way on one half of the words served the other half nearly as well as
-their own (0.73 and 0.49 beside 0.75 and 0.51; 0.77 and 0.45 beside 0.77 and 0.48: opening and
-rounding). No recorded face was copied: no curve here is anybody's trajectory.
+Levels chosen anew on one half of the words serve the other half nearly as well as its own
+do (``bench/held_out``). No recorded face was copied: no curve here is anybody's trajectory.
 """
 
 from __future__ import annotations
