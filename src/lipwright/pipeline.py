@@ -309,6 +309,7 @@ def evaluate_motion(
         If an animation has no control that moves the head's mouth.
     """
     from lipwright.animation import Animation
+    from lipwright.character.between import with_betweens
     from lipwright.character.head import measure
     from lipwright.evaluate import Curve, Pair, compare, is_rhubarb, read_recording, read_rhubarb
 
@@ -323,7 +324,8 @@ def evaluate_motion(
         if not set(made.controls) & set(skin.morphs):
             raise CharacterError("no control moves the head's mouth", where=name)
         phones = from_labels(labels[number]).phones if labels else made.phones
-        mouth = measure([skin], marks, dict(zip(made.controls, made.values.T, strict=True)))
+        moved = with_betweens(made, skin.morphs)
+        mouth = measure([skin], marks, dict(zip(moved.controls, moved.values.T, strict=True)))
         opening, breadth = Curve(made.times, mouth.opening), Curve(made.times, mouth.breadth)
         found.append(Pair(opening, breadth, recorded, phones.normalised(), name))
     return compare(found)

@@ -33,7 +33,7 @@ def stand(character: Character, **weights: float) -> tuple[float, float, float]:
     return stance.gap, stance.contact, stance.width
 
 
-@pytest.mark.parametrize("drop", [0.012, 0.02, 0.05])
+@pytest.mark.parametrize("drop", [0.0125, 0.02, 0.05])
 def test_all_mouths_open_alike(drop: float) -> None:
     character = loaded(face({"jawOpen": dropped(drop), "mouthPucker": widened(-0.6)}))
     assert stand(character, open=0.5)[0] == pytest.approx(OPEN_GAP, abs=0.002)

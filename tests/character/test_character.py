@@ -40,8 +40,10 @@ def test_the_head_is_built_in_and_speaks_every_pose_as_it_is() -> None:
     character = load_character("head")
     values = np.random.default_rng(2).random((4, 9), dtype=np.float32)
     rigged = character.rig(Animation(POSES, values, 60.0))
-    assert rigged.channels.controls == POSES
-    assert np.array_equal(rigged.channels.values, values)
+    assert rigged.channels.controls == (*POSES, "open@50")
+    assert np.array_equal(rigged.channels.values[:, :-1], values)
+    between = 1 - np.abs(2 * values[:, POSES.index("open")] - 1)
+    assert rigged.channels.control("open@50") == pytest.approx(between, abs=1e-6)
     shown = {name for mesh in morph_meshes(parse_glb(rigged.glb)) for name in mesh.targets}
     assert set(POSES) <= shown
     assert {c["status"] for c in inspect_character(character)["controls"].values()} == {"exact"}

@@ -15,6 +15,7 @@ from dataclasses import replace
 import numpy as np
 
 from lipwright.animation import Animation
+from lipwright.character.face_model import Move, displacement
 from lipwright.curves import Floats
 
 _NAME = re.compile(r"(.+)@(\d{1,2}(?:\.\d+)?)")
@@ -66,6 +67,35 @@ def corrections(whole: Floats, bent: Sequence[Floats], steps: Sequence[float]) -
     steps : sequence of float
     """
     return [true - step * whole for true, step in zip(bent, steps, strict=True)]
+
+
+def morph_targets(
+    points: Floats,
+    moves: Mapping[str, Sequence[Move]],
+    between: Mapping[str, Sequence[float]],
+) -> dict[str, Floats]:
+    """Return the targets of expressions and of their in-betweens.
+
+    Parameters
+    ----------
+    points : (V, 3) float64, metres
+        The neutral face.
+    moves : mapping of str to sequence of Move
+    between : mapping of str to sequence of float
+        Intensities at which an expression gets an in-between.
+
+    Returns
+    -------
+    dict of str to (V, 3) float64, metres
+    """
+    targets: dict[str, Floats] = {}
+    for name, own in moves.items():
+        targets[name] = displacement(points, own)
+        steps = between.get(name, ())
+        bent = [displacement(points, own, step) for step in steps]
+        for step, held in zip(steps, corrections(targets[name], bent, steps), strict=True):
+            targets[between_name(name, step)] = held
+    return targets
 
 
 def hats(values: Floats, steps: Sequence[float]) -> list[Floats]:

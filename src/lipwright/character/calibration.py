@@ -24,7 +24,7 @@ from lipwright.gltf import Gltf, structure
 
 Floats = NDArray[np.float64]
 
-OPEN_GAP = 0.22
+OPEN_GAP = 0.23
 """Between the lips at half ``open``, of the mouth's width: as of the built-in head."""
 WIDTHS = {"W": 0.56, "ShCh": 0.80, "wide": 1.24}
 """From corner to corner at 1, of the width at rest: as of the built-in head."""

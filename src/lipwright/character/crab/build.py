@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from lipwright.character.between import morph_targets
 from lipwright.character.clusters import step
 from lipwright.character.crab import paint
 from lipwright.character.crab.anatomy import Anatomy, of_body, part_of
@@ -23,7 +24,6 @@ from lipwright.character.crab.mouthparts import (
 )
 from lipwright.character.crab.poses import EXTRAS, SPEECH, Pose
 from lipwright.character.crab.spines import feelers, freckles, knobs, spines
-from lipwright.character.face_model import displacement
 from lipwright.character.mesh import Material, Part
 
 Floats = NDArray[np.float64]
@@ -37,6 +37,8 @@ EYE = Material("eyes", _WHITE, 0.10)
 TARGETS: dict[str, Pose] = {**SPEECH, **EXTRAS}
 """Every morph target: what it speaks with, then the rest."""
 MANDIBLE_RIDES, TONGUE_RIDES = 0.35, 0.9  # shares of the plate's way
+BETWEEN = {"mandibles_in": (0.33, 0.67), "mandibles_out": (0.5,)}
+"""Where a straight line would leave the arc of a turn by over a millimetre in speech."""
 _STILL = 1e-6  # metres
 
 
@@ -63,11 +65,13 @@ class _Surface:
     def _morphs(self) -> dict[str, NDArray[np.float32]]:
         if self.anatomy is None:
             return {}
-        moves = {
-            name: displacement(self.anatomy.points, pose(self.anatomy)).astype(np.float32)
-            for name, pose in TARGETS.items()
+        moves = {name: pose(self.anatomy) for name, pose in TARGETS.items()}
+        made = morph_targets(self.anatomy.points, moves, BETWEEN)
+        return {
+            name: moved.astype(np.float32)
+            for name, moved in made.items()
+            if np.abs(moved).max() > _STILL
         }
-        return {name: moved for name, moved in moves.items() if np.abs(moved).max() > _STILL}
 
 
 def build_crab() -> tuple[Part, ...]:
@@ -81,7 +85,8 @@ def build_crab() -> tuple[Part, ...]:
         ``teeth_lower``, ``tongue``, and of each side ``mandible_left``, ``eye_left``,
         ``lids_left``, ``stalk_left``, ``claw_left``, ``finger_left``, ``bite_left`` (a claw's
         small teeth), ``arm_left``. The origin lies in the middle of the body, which is 0.2 m
-        broad. Each part has the targets of :data:`TARGETS` that move it.
+        broad. Each part has the targets of :data:`TARGETS` that move it, and in-betweens of
+        those of :data:`BETWEEN`.
     """
     surfaces = [*_body(), *_mouth()]
     for name, side in (("left", 1), ("right", -1)):

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from lipwright.character.face_model import displacement
+from lipwright.character.between import morph_targets
 from lipwright.character.head.anatomy import Anatomy, of_skin, on_face, rigid
 from lipwright.character.head.arkit import SHAPES
 from lipwright.character.head.brows import brows
@@ -37,6 +37,8 @@ EYE = Material("eyes", (1.0, 1.0, 1.0, 1.0), 0.12)
 
 TARGETS: dict[str, Pose] = {**POSES, **SHAPES}
 """Every morph target: the nine poses, then ARKit's shapes."""
+BETWEEN = {"open": (0.5,), "jawOpen": (0.5,)}
+"""Where a straight line would leave the arc of a turn by over a millimetre."""
 _STILL = 1e-7  # metres
 
 
@@ -60,11 +62,13 @@ class _Surface:
     def _morphs(self) -> dict[str, NDArray[np.float32]]:
         if self.anatomy is None:
             return {}
-        moves = {
-            name: displacement(self.points, pose(self.anatomy)).astype(np.float32)
-            for name, pose in TARGETS.items()
+        moves = {name: pose(self.anatomy) for name, pose in TARGETS.items()}
+        made = morph_targets(self.points, moves, BETWEEN)
+        return {
+            name: moved.astype(np.float32)
+            for name, moved in made.items()
+            if np.abs(moved).max() > _STILL
         }
-        return {name: moved for name, moved in moves.items() if np.abs(moved).max() > _STILL}
 
 
 def build_head() -> tuple[Part, ...]:
@@ -76,7 +80,8 @@ def build_head() -> tuple[Part, ...]:
         ``skin`` (which goes on inside the mouth as a closed bag), ``brows``, ``ears``,
         ``hair``, ``shirt``, ``teeth_upper``, ``gums_upper``, ``teeth_lower``, ``gums_lower``,
         ``tongue``, ``eye_left``, ``eye_right``. The origin lies between the eyes; chin to
-        crown is 0.225 m. Each part has the targets of :data:`TARGETS` that move it.
+        crown is 0.225 m. Each part has the targets of :data:`TARGETS` that move it, and
+        in-betweens of those of :data:`BETWEEN`.
     """
     return tuple(surface.part() for surface in (*_outside(), *_inside()))
 

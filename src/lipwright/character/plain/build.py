@@ -16,7 +16,7 @@ from pathlib import Path
 
 import numpy as np
 
-from lipwright.character.between import between_name, corrections, hats
+from lipwright.character.between import between_name, hats, morph_targets
 from lipwright.character.builtin import to_gltf
 from lipwright.character.face_model import Move, displacement, mixture
 from lipwright.character.mesh import Part
@@ -158,14 +158,7 @@ class _Sculpted:
             for name, rows in face.expressions.items()
         }
         points = surface.points
-        targets: dict[str, Floats] = {}
-        for name, own in moves.items():
-            whole = displacement(points, own)
-            targets[name] = whole
-            steps = face.between.get(name, [])
-            bent = [displacement(points, own, step) for step in steps]
-            for step, held in zip(steps, corrections(whole, bent, steps), strict=True):
-                targets[between_name(name, step)] = held
+        targets = morph_targets(points, moves, face.between)
         for name, mixed in face.mixtures.items():
             targets[name] = mixture(((share, moves[one]) for one, share in mixed.items()), points)
         return cls(surface, moves, targets)
