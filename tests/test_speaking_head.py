@@ -13,6 +13,7 @@ from lipwright.performance import Performance
 from tests.chromium import Opened, chromium, opened
 
 LINE = "Papa, father, my map."
+PATIENCE = 100
 PERIOD = 0.1
 
 
@@ -78,8 +79,10 @@ def test_the_picture_shows_it_and_the_page_plays(performance: Performance, tmp_p
         assert shares["ɑː"] > shares["p"] + 0.05, shares
         page.at(0.0)
         page.ask("lipwright.play()")
-        morphs = []
-        for _ in range(12):
+        morphs = [page.ask("lipwright.morphs().open")]
+        for _ in range(PATIENCE):  # a busy machine draws few frames
+            if page.ask("lipwright.time()") > 0.3 and max(morphs) > min(morphs) + 0.1:
+                break
             page.page.wait_for_timeout(1000 * PERIOD)
             morphs.append(page.ask("lipwright.morphs().open"))
         assert page.ask("lipwright.time()") > 0.3
