@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from pathlib import Path
 
-from lipwright.curves import Keys
-from lipwright.engines.bigram.model import Bigram, BigramSet
+from lipwright.engines.bigram.model import BigramSet
 from lipwright.engines.bigram.set_file import set_bytes
 from lipwright.files import write_atomically
 from lipwright.phones import load_phone_set
+from tools.drawn_sets import FOLDER, bigrams, singles
 from tools.english.__main__ import english
 from tools.english.draw import HAND
 from tools.mandarin.knowledge import SOUNDS, WORDS
 
-TARGET = Path(__file__).parents[2] / "src" / "lipwright" / "data" / "sets" / "mandarin.json"
+TARGET = FOLDER / "mandarin.json"
 _HAND = replace(HAND, sounds=SOUNDS)
 ABOUT = (
     "Mandarin: the English set and the 45 pairs of ü (43 among sounds, 2 with silence), drawn "
@@ -28,22 +27,13 @@ def mandarin() -> BigramSet:
     new = [
         pair for pair in base.needed(load_phone_set("mandarin").labels) if pair not in base.bigrams
     ]
-    drawn = {
-        pair: Bigram(
-            pair,
-            {pose: Keys.of(points) for pose, points in _HAND.curves(*pair).items()},
-            word=WORDS.get(pair, ""),
-            source="mandarin",
-        )
-        for pair in new
-    }
-    alone = {pose: Keys.of(points) for pose, points in _HAND.single("yu").items()}
+    drawn = bigrams(_HAND, new, WORDS, "mandarin")
     return replace(
         base,
         name="mandarin",
         phone_set="mandarin",
         bigrams={**base.bigrams, **drawn},
-        singles={**base.singles, "yu": alone},
+        singles={**base.singles, **singles(_HAND, ["yu"])},
         about=ABOUT,
     )
 

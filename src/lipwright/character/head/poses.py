@@ -2,8 +2,9 @@
 
 ``open`` turns the jaw by OPEN_DEGREES. As a linear target its arc is drawn as a chord: at
 half weight no vertex is more than 1.1 mm from the true turn (ARKit's ``jawOpen``, which
-turns farther: 1.9 mm); an in-between target at a half brings that to 0.3 mm (0.5 mm). The poses of the tongue move nothing else; they show in an open mouth.
-Lips that a pose does not part stay vertex on vertex where they meet.
+turns farther: 1.9 mm); an in-between target at a half brings that to 0.3 mm (0.5 mm). The
+poses of the tongue move nothing else; they show in an open mouth. Lips that a pose does
+not part stay vertex on vertex where they meet.
 """
 
 from __future__ import annotations
