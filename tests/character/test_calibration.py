@@ -128,3 +128,12 @@ def test_a_scanned_head_opens_and_closes_as_the_built_in_one() -> None:
     assert seen <= TOUCH
     assert contact >= CROSSED
     assert stand(character, open=0.5)[0] == pytest.approx(found.controls["open"].wanted, abs=0.003)
+
+
+@pytest.mark.shared_data
+@pytest.mark.skipif(not ICT_HEAD.exists(), reason="the shared folder is absent")
+def test_a_scanned_head_makes_a_round_hole_in_uw_and_not_a_broad_slit() -> None:
+    character = load_character(ICT_HEAD)
+    seen, _, width = stand(character, W=0.88)
+    assert width < 0.75
+    assert 0.09 < seen < 0.15
