@@ -37,7 +37,7 @@ SOUNDS: dict[str, Sound] = {
     "eh": vowel(open=0.54, wide=0.28),
     "er": vowel(open=0.26, W=0.18, ShCh=0.32, tBack=0.25),
     "ih": vowel(open=0.31, wide=0.30),
-    "w": vowel((0.40, 0.66), open=0.04, W=0.92, tBack=0.30),
+    "w": vowel((0.40, 0.66), open=0.10, W=0.92, tBack=0.30),
     # Diphthongs: from … to … In running speech 'ay' does not reach its /ih/.
     "ow": diphthong({"open": 0.30, "W": 0.44}, {"open": 0.18, "W": 0.80}),
     "aw": diphthong({"open": 0.50, "wide": 0.30}, {"open": 0.18, "W": 0.40}),
