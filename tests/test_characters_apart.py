@@ -190,3 +190,36 @@ def test_speed_limits_of_a_character_hold(tmp_path: Path) -> None:
         assert np.abs(slopes).max() <= limit + 1e-6
     document = json.loads(path.read_text("utf-8"))
     assert document["settings"] == limits
+
+
+def test_a_set_is_read_again_when_its_base_or_its_reduction_changes(tmp_path: Path) -> None:
+    english = json.loads((DATA / "english.json").read_bytes())
+    base, own, reduction = (tmp_path / f"{name}.json" for name in ("base", "own", "reduction"))
+    base.write_text(json.dumps(english), "utf-8")
+    head = {key: english[key] for key in ("format", "version", "phone_set")}
+    own.write_text(json.dumps({**head, "name": "own", "base": "base.json", "bigrams": []}), "utf-8")
+    labels = {label: "ah" if label == "ow" else "bmp" for label, _, _ in PHONES}
+    table = {"format": "lipwright/reduction", "version": 1, "source": "arpabet"}
+    table |= {"target": "common", "map": labels}
+    reduction.write_text(json.dumps(table), "utf-8")
+
+    first, reduced = values("head", bigram_set=own), values("head", reduction=reduction)
+    engine = engine_for(own)
+    assert engine_for(own) is engine
+    english["rules"]["poses"][0]["limit"] = 1.5
+    base.write_text(json.dumps(english), "utf-8")
+    table["map"] = {**labels, "ow": "w"}
+    reduction.write_text(json.dumps(table), "utf-8")
+    assert engine_for(own) is not engine
+    assert np.abs(values("head", bigram_set=own) - first).max() > 0.05
+    assert np.abs(values("head", reduction=reduction) - reduced).max() > 0.05
+
+
+def test_a_set_of_other_poses_is_told() -> None:
+    notes = lipwright.animate(LINE, bigram_set="crab").speech.notes
+    assert notes == (
+        "head knows 1 of the set's 12 poses (tongue_out): the others are not seen; "
+        "choose another --set",
+    )
+    assert lipwright.animate(LINE, bigram_set="crab", character="crab").speech.notes == ()
+    assert lipwright.animate(LINE, bigram_set="english", character="crab").speech.notes == ()

@@ -6,12 +6,13 @@ change of it is laid over it. Engines are kept, and made anew when a file of the
 
 from __future__ import annotations
 
-from functools import lru_cache
+import os
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from lipwright.errors import InputError
-from lipwright.files import file_version
+from lipwright.files import Kept, Version, file_version
 
 if TYPE_CHECKING:
     from lipwright.character import CharacterFile
@@ -35,10 +36,41 @@ def engine_for(
 
     file = character_file(character)
     chosen = _chosen_set(bigram_set, set_of(file, str(character)), language)
-    files = [str(path) if path else None for path in (overrides, reduction)]
-    read = (chosen, *(path for path in files if path))
-    versions = (file.files if file else (), *map(file_version, read))
-    return _engine(chosen, preset, files[0], files[1], file, versions)
+    paths = [str(path) if path else "" for path in (overrides, reduction)]
+    key = (chosen, preset, *paths, file, *map(os.path.abspath, (chosen, *paths)))
+    return _engines.get(key, lambda: _cast(chosen, preset, paths[0], paths[1], file)).engine
+
+
+def set_for(bigram_set: str | Path | None, character: str | Path | None) -> BigramSet:
+    """Return a set as a character has it: the user's, else the character's, else English."""
+    from lipwright.character import keep_character
+    from lipwright.character.pictures import is_pictures
+    from lipwright.engines.bigram import load_set
+
+    if character is None:
+        return load_set(str(bigram_set or DEFAULT_SET))
+    if not is_pictures(character):
+        keep_character(character)  # one that is not there is refused
+    return engine_for(bigram_set, character=character).of
+
+
+def files_read(character: str | Path, bigram_set: str | Path | None = None) -> list[str]:
+    """Return the files that a character and its set are made of: they are not written over."""
+    file = character_file(character)
+    named = [str(character)]
+    if file is not None:
+        named += [*(path for path, _ in file.files), file.model[0]]
+    chosen = str(bigram_set or (file.bigram_set[0] if file else ""))
+    return [*named, *_set_files(chosen)] if chosen.endswith(".json") else named
+
+
+def _set_files(path: str) -> list[str]:
+    from lipwright.engines.bigram import load_set
+
+    try:
+        return [name for name, _ in load_set(path).files]
+    except InputError:
+        return [path]  # whoever animates with it says what is wrong
 
 
 def character_file(character: str | Path | None) -> CharacterFile | None:
@@ -59,19 +91,27 @@ def _chosen_set(given: str | Path | None, own: str, language: str) -> str:
     return own or SETS_BY_LANGUAGE.get(first, DEFAULT_SET)
 
 
-@lru_cache(maxsize=32)
-def _engine(
-    bigram_set: str,
-    preset: str,
-    overrides: str | None,
-    reduction: str | None,
-    file: CharacterFile | None,
-    versions: tuple[object, ...],
-) -> BigramEngine:
+@dataclass(frozen=True, slots=True)
+class _Cast:
+    """An engine, and the files that it was made from."""
+
+    engine: BigramEngine
+    files: tuple[tuple[str, Version | None], ...]
+
+
+_engines: Kept[_Cast] = Kept(32)
+
+
+def _cast(
+    bigram_set: str, preset: str, overrides: str, reduction: str, file: CharacterFile | None
+) -> _Cast:
     from lipwright.engines.bigram import BigramEngine, read_overrides
 
+    given = tuple((path, file_version(path)) for path in (overrides, reduction) if path)
     base = _loaded_set(bigram_set, file)
-    return BigramEngine(read_overrides(overrides, base) if overrides else base, preset, reduction)
+    of = read_overrides(overrides, base) if overrides else base
+    files = (*(file.files if file else ()), *base.files, *given)
+    return _Cast(BigramEngine(of, preset, reduction or None), files)
 
 
 def _loaded_set(name: str, file: CharacterFile | None) -> BigramSet:

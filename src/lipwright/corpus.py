@@ -57,10 +57,11 @@ class Corpus:
 
 
 def coverage(
-    bigram_set: str | Path = "english",
+    bigram_set: str | Path | None = None,
     corpus: Corpus | None = None,
     *,
     overrides: str | Path | None = None,
+    character: str | Path | None = None,
     reduction: str | Path | None = None,
     within_words: bool = False,
     silence: bool = True,
@@ -71,11 +72,14 @@ def coverage(
 
     Parameters
     ----------
-    bigram_set : str or path
+    bigram_set : str or path, optional
+        Else the character's, else English.
     corpus : Corpus, optional
         Without it every pair of the set's classes counts once.
     overrides : path, optional
         A file whose bigrams are counted as the set's own.
+    character : str or path, optional
+        Who speaks: what its file draws is counted too.
     reduction, within_words, silence, by
         See :func:`lipwright.engines.bigram.coverage.coverage`.
     progress : function, optional
@@ -96,10 +100,11 @@ def coverage(
     >>> [need.word for need in found.needs() if need.pair == ("bmp", "ah")]
     ['map']
     """
-    from lipwright.engines.bigram import load_set, read_overrides
+    from lipwright.casting import set_for
+    from lipwright.engines.bigram import read_overrides
     from lipwright.engines.bigram.coverage import coverage as count
 
-    of = load_set(str(bigram_set))
+    of = set_for(bigram_set, character)
     lines = None if corpus is None else _Lines(corpus, progress)
     try:
         found = count(

@@ -226,17 +226,25 @@ def animate(
         shapes.check_controls(animation.controls)
         return Performance(animation, speech, shapes.no_model, cues, flat=True)
     actor = keep_character(character, mapping)
-    if not actor.fits:
-        _check(actor, animation.controls)
+    strange = ""
+    if not actor.fits or actor.bigram_set != made.of.name:
+        strange = _check(actor, animation.controls)
     report = {**animation.report, "character": actor.report()}
     named = replace(animation, report=report)
-    told = replace(speech, notes=(*speech.notes, *actor.notes(animation.controls, speech)))
+    notes = (*speech.notes, *([strange] if strange else []))
+    told = replace(speech, notes=(*notes, *actor.notes(animation.controls, speech)))
     return Performance(named, told, partial(actor.rig, named), cues)
 
 
 @lru_cache(maxsize=8)
-def _check(actor: Character, controls: tuple[str, ...]) -> None:
+def _check(actor: Character, controls: tuple[str, ...]) -> str:
+    """Refuse controls that move nothing on a character; return what to say of few that do."""
+    from lipwright.character.vocabulary import POSES
+
+    if actor.fits and set(controls) <= set(POSES):
+        return ""
     actor.check(controls)
+    return actor.strange_to(controls)
 
 
 def save(performance: Performance, *paths: str | Path) -> None:

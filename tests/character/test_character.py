@@ -4,17 +4,20 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from time import process_time
 
 import numpy as np
 import pytest
 
 from lipwright.animation import Animation
-from lipwright.character.character import load_character
+from lipwright.character.between import between_names, betweens
+from lipwright.character.character import Character, load_character
 from lipwright.character.inspect import describe_character, inspect_character
 from lipwright.character.mapping import read_mapping
 from lipwright.character.vocabulary import POSES
 from lipwright.errors import CharacterError, InputError
 from lipwright.gltf import Gltf, morph_meshes, parse_glb
+from tests.character.sheets import dropped, face
 from tests.models import model
 
 SHARED = Path(__file__).parents[2] / "../shared"
@@ -141,3 +144,38 @@ def test_the_scanned_head_is_found_to_speak_arkit() -> None:
     missing = [c for c, made in report["controls"].items() if made["status"] == "missing"]
     assert missing == ["tBack", "tRoof", "tTeeth"]
     assert len(report["meshes"]) == 5
+
+
+def test_thousands_of_targets_are_read_at_once(tmp_path: Path) -> None:
+    path = saved(tmp_path, model(("jawOpen", "jawOpen@50", *(f"wrinkle{n}" for n in range(4000)))))
+    before = process_time()
+    character = load_character(path)
+    assert character.fit().weights_of("open")
+    assert process_time() - before < 5
+    targets = character.read_rig().targets
+    assert len(targets) == 4001
+    assert "jawOpen@50" not in targets
+
+
+def test_a_surface_of_no_numbers_is_not_measured() -> None:
+    made = face({"jawOpen": dropped(0.02)})
+    place = made.json["meshes"][0]["primitives"][0]["attributes"]["POSITION"]
+    view = made.json["bufferViews"][made.json["accessors"][place]["bufferView"]]
+    start = view.get("byteOffset", 0)
+    broken = made.binary[:start] + b"\x00\x00\xc0\x7f" + made.binary[start + 4 :]
+    found = Character("face", lambda: Gltf(made.json, broken)).calibration()
+    assert found.mouth is None
+    assert found.reason == (
+        "its surface cannot be read (places of vertices that are no finite numbers)"
+    )
+
+
+def test_no_name_is_no_character() -> None:
+    with pytest.raises(CharacterError, match="no character; expected head, crab, or a file"):
+        load_character("")
+
+
+def test_in_betweens_are_those_of_one_spelling() -> None:
+    names = ["open", "open@50", "open@50.0", "open@05", "W@50"]
+    assert betweens(names) == {"open": [0.5]}
+    assert between_names(names) == {"open@50"}

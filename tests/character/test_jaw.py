@@ -18,6 +18,7 @@ from lipwright.errors import CharacterError
 from lipwright.gltf import Gltf
 from lipwright.performance import JointTurn
 from tests.character.sheets import dropped, jawed, widened
+from tests.character_files import write_character, write_mapping
 
 QUARTER = 0.5**0.5
 
@@ -162,3 +163,18 @@ def test_a_written_mapping_holds_the_joint(tmp_path: Path) -> None:
     again = load_character(model, tmp_path / "mine.json")
     assert again.fit().joints == first.fit().joints
     assert again.fit().values({"open": 0.5}) == first.fit().values({"open": 0.5})
+
+
+def test_a_character_file_may_use_the_joints_of_a_mapping_file(tmp_path: Path) -> None:
+    saved(tmp_path, jawed({"jawOpen": dropped(0.02)}, None, "chin"))
+    write_mapping(tmp_path / "m.json", joints={"Drop": {"joint": "chin", "degrees": 12}})
+    rows = {"open": {"Drop": 0.5, "jawOpen": 0.5}}
+    path = write_character(tmp_path / "c.json", model="face.glb", mapping=["m.json", rows])
+    fitting = load_character(path).fit()
+    assert fitting.weights_of("open") == {"Drop": 0.5, "jawOpen": 0.5}
+    assert fitting.joints["Drop"].degrees == 12
+    write_character(tmp_path / "d.json", base="c.json", mapping={"wide": {"Drop": 0.1}})
+    assert load_character(tmp_path / "d.json").fit().weights_of("wide") == {"Drop": 0.1}
+    write_character(tmp_path / "d.json", base="c.json", mapping={"wide": {"Dorp": 0.1}})
+    with pytest.raises(CharacterError, match=r"d.json, at mapping: .* no channel 'Dorp'"):
+        load_character(tmp_path / "d.json")

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from lipwright.cli import main
+from lipwright.gltf import Gltf
 from tests.character.sheets import dropped, face, jawed
 from tests.cli.test_bad_input import fails
 from tests.models import model
@@ -127,3 +128,18 @@ def test_the_mouth_is_drawn_and_the_gains_are_told(
     first = picture.read_bytes()
     assert main(arguments) == 0
     assert picture.read_bytes() == first
+
+
+def test_what_is_hidden_is_not_drawn(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    made = face({"jawOpen": dropped(0.02)})
+    behind = {"mesh": made.json["nodes"][0].get("mesh", 0), "translation": [0, 0, -0.03]}
+    drawn = []
+    for name, nodes in (("one", []), ("two", [behind])):
+        document = {**made.json, "nodes": [*made.json["nodes"], *nodes]}
+        character, picture = tmp_path / f"{name}.glb", tmp_path / f"{name}.svg"
+        character.write_bytes(Gltf(document, made.binary).to_glb())
+        assert main(["character", "inspect", str(character), "--picture", str(picture)]) == 0
+        drawn.append(picture.read_text("utf-8").count("<path"))
+    assert drawn[0] > 200
+    # Only what shows through the open mouth and past the edges is drawn twice.
+    assert drawn[1] < 1.3 * drawn[0]

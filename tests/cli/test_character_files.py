@@ -194,3 +194,90 @@ def test_a_folder_is_no_character(tmp_path: Path, capsys: pytest.CaptureFixture[
     write_overrides(tmp_path / "o.json")
     arguments = ("say", "Hi", "--character", tmp_path / "o.json", "-o", tmp_path / "a.json")
     assert "expected a file of format 'lipwright/character'" in fails(capsys, tmp_path, *arguments)
+
+
+def test_nothing_that_is_read_is_written_over(
+    troll: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    base, own = tmp_path / "base.json", tmp_path / "own.json"
+    base.write_bytes((DATA / "english.json").read_bytes())
+    head = {
+        "format": "lipwright/bigram-set",
+        "version": 1,
+        "name": "own",
+        "base": "base.json",
+        "bigrams": [],
+    }
+    own.write_text(json.dumps(head), "utf-8")
+    elf = write_character(tmp_path / "elf.json", base="head", set="own.json")
+    gnome = tmp_path / "gnome.json"
+    for arguments in (
+        ("character", "inspect", troll, "--write", troll),
+        ("character", "inspect", troll, "--write", gnome),
+        ("character", "inspect", elf, "--picture", own),
+        ("say", "Hi", "--character", elf, "-o", own),
+        ("say", "Hi", "--set", own, "-o", base),
+    ):
+        assert "would be written over its own input" in fails(
+            capsys, tmp_path, *map(str, arguments)
+        )
+
+
+def test_a_set_is_shown_as_a_character_has_it(
+    troll: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run("set", "show", "l-ow", "--character", troll, "--json") == 0
+    shown = json.loads(capsys.readouterr().out)
+    assert (shown["source"], shown["curves"]) == ("troll", LOW["curves"])
+    assert run("set", "show", "bmp-aa", "--character", "crab") == 0
+    assert "mandibles_in" in capsys.readouterr().out
+    new = {"pair": ["sh", "yu"], "curves": {}}
+    path = write_character(
+        tmp_path / "c.json", base="head", set="mandarin", overrides={"bigrams": [new]}
+    )
+    assert run("set", "coverage", "--character", path, "--json") == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["set"] == "mandarin"
+    told = fails(capsys, tmp_path, "set", "show", "l-ow", "--character", "crap")
+    assert "no character 'crap'" in told
+    assert "Did you mean 'crab'?" in told
+    assert run("set", "coverage", "--character", troll, "--set", "crab") == 1
+    assert "unknown pose" in capsys.readouterr().err
+
+
+def test_a_base_that_does_not_suit_the_set_starts_nothing(
+    troll: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    new = tmp_path / "new.json"
+    told = fails(
+        capsys, tmp_path, "character", "new", str(new), "--base", str(troll), "--set", "crab"
+    )
+    assert "unknown pose 'W'" in told
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "cure"),
+    [
+        ("a.json", '{"format": "lipwright/face", "version": 1}', "lipwright character build"),
+        ("a.json", '{"format": "lipwright/mapping", "version": 1}', "it goes with --mapping"),
+        ("a.json", '{"format": "lipwright/bigram-set", "version": 1}', "it goes with --set"),
+        ("a.obj", "v 0 0 0\n", "lipwright character build"),
+        ("a.fbx", "Kaydara FBX Binary", "convert it to glb"),
+    ],
+)
+def test_what_is_no_character_is_told_where_it_goes(
+    name: str, content: str, cure: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / name).write_text(content, "utf-8")
+    for command in (
+        ["character", "inspect"],
+        ["say", "Hi", "-o", tmp_path / "hi.csv", "--character"],
+    ):
+        assert cure in fails(capsys, tmp_path, *command, tmp_path / name).lower()
+
+
+def test_the_set_of_a_built_in_character_is_told(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run("character", "inspect", "crab") == 0
+    assert "\nset: crab, nothing overridden\n" in capsys.readouterr().out
+    assert run("character", "inspect", "crab", "--json") == 0
+    assert json.loads(capsys.readouterr().out)["set"] == "crab"

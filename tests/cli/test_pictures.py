@@ -80,3 +80,46 @@ def test_a_file_that_is_read_is_not_written_over(
     own.write_text("{}")
     arguments = ("say", "Hi", "--pictures", own, "-o", own)
     assert "over its own input" in fails(capsys, tmp_path, *arguments)
+
+
+@pytest.mark.parametrize("name", ["rhubarb", "preston_blair", "fleming_dobbs"])
+def test_a_list_of_mouths_is_inspected(
+    name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["character", "inspect", name]) == 0
+    text = capsys.readouterr().out
+    assert max(map(len, text.splitlines())) <= 80
+    assert main(["character", "inspect", name, "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert f"{name}: {len(found['shapes'])} mouth shapes, {found['rest']} at rest" in text
+    for shape in found["shapes"]:
+        assert f"  {shape['label']} " in text
+    assert fails(capsys, tmp_path, "character", "inspect", name, "--write", "m.json").startswith(
+        f"lipwright: {name}: a character of pictures has neither a mapping nor a mesh"
+    )
+
+
+def test_a_list_of_ones_own_is_inspected(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    shapes = [
+        {"label": "shut", "at": [{"PBM": 1}], "only": ["bmp"], "picture": "shut.png"},
+        {"label": "ajar", "at": [{"open": 0.3, "W": 0.2}, {}]},
+        {"label": "idle", "at": [{}], "only": ["sil"]},
+    ]
+    content = {"format": "lipwright/pictures", "version": 1, "name": "duck", "shapes": shapes}
+    content |= {"rest": "idle", "reach": {"bmp": "shut"}}
+    content |= {"missing": ["idle"], "fallback": {"idle": "ajar"}}
+    (tmp_path / "duck.json").write_text(json.dumps(content), "utf-8")
+    (tmp_path / "shut.png").write_bytes(b"\x89PNG")
+    assert main(["character", "inspect", str(tmp_path / "duck.json")]) == 0
+    text = capsys.readouterr().out
+    assert "  shut  1 PBM\n        (every bmp must show it; shut.png)" in text
+    assert "  ajar  0.3 open + 0.2 W; rest" in text
+    assert "not drawn: ajar stands in" in text
+
+
+def test_a_flat_page_is_no_head(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    page = str(tmp_path / "hi.html")
+    assert main(["say", "Hi", "--character", "rhubarb", "-o", page]) == 0
+    assert f"{page}  (speaking mouth: open it in a browser)" in capsys.readouterr().out

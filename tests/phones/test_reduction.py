@@ -119,3 +119,15 @@ def test_a_reduction_keeps_the_time_of_every_phone(phones: list[tuple[str, float
 def test_a_set_reduces_to_itself() -> None:
     track = PhoneTrack(Tier.of(("bmp", 0, 1)), "common")
     assert load_reduction("common").rows(track)[0] == [("bmp", 0, 1)]
+
+
+def test_what_only_stands_in_is_told(tmp_path: Path) -> None:
+    track = PhoneTrack(Tier.of(("n", 0, 0.1), ("ü", 0.1, 0.3)), "pinyin")
+    assert load_reduction("pinyin", "common").rows(track)[1].stand_ins == {"ü": "w"}
+    assert load_reduction("pinyin", "mandarin").rows(track)[1].stand_ins == {}
+    path = tmp_path / "mine.json"
+    table = {"format": "lipwright/reduction", "version": 1, "source": "arpabet"}
+    table |= {"target": "common", "map": {"AA": "aa", "ZH": "sh"}, "nearest": ["ZH"]}
+    path.write_text(json.dumps(table), "utf-8")
+    found = load_reduction(str(path))
+    assert [found.of(label)[1] for label in ("AA", "ZH")] == [True, False]

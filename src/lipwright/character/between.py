@@ -44,8 +44,12 @@ def betweens(targets: Iterable[str]) -> dict[str, list[float]]:
     found: dict[str, list[float]] = {}
     for name in names:
         match = _NAME.fullmatch(name)
-        if match and match[1] in names and float(match[2]) > 0:
-            found.setdefault(match[1], []).append(float(match[2]) / 100)
+        if not match or match[1] not in names:
+            continue
+        step = float(match[2]) / 100
+        # Of two spellings of one number, open@50 and open@50.0, only the first is one.
+        if step > 0 and name == between_name(match[1], step):
+            found.setdefault(match[1], []).append(step)
     return {name: sorted(steps) for name, steps in sorted(found.items())}
 
 

@@ -119,6 +119,8 @@ def _face(model: Gltf, fitting: Fitting, opening: dict[str, float]) -> Surfaces 
         return None
     rest, moved = face.positions({}) @ face.axes, face.positions(opening) @ face.axes
     far = np.linalg.norm(moved - rest, axis=1)
+    if not np.isfinite(far).all():
+        raise InputError("places of vertices that are no finite numbers")
     if not far.any():
         return face
     if fitting.joints:

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -24,7 +24,7 @@ from lipwright.character.calibration import Calibration, calibrate
 from lipwright.character.character_file import OWN_PLACES, CharacterFile, Versions
 from lipwright.character.character_reading import is_character_file, read_character_file
 from lipwright.character.fitting import Fitting, fit
-from lipwright.character.mapping import Mapping, merged, read_mapping
+from lipwright.character.mapping import JointChannel, Mapping, merged, read_mapping
 from lipwright.character.rig import Rig, read_rig
 from lipwright.errors import CharacterError, InputError, did_you_mean
 from lipwright.files import Kept, file_version, write_atomically
@@ -136,6 +136,15 @@ class Character:
         plain = fit(self.read_rig(), self.mapping, self.mapping_name)
         self._drive(Animation(tuple(controls), still, 1.0), plain)
 
+    def strange_to(self, controls: Sequence[str]) -> str:
+        """Return what to say of a set that was not drawn for this model; nothing if it was."""
+        fitting = fit(self.read_rig(), self.mapping, self.mapping_name)
+        known = [one for one in controls if one in fitting.controls or fitting.weights_of(one)]
+        if 2 * len(known) >= len(controls):
+            return ""
+        text = f"{self.name} knows {len(known)} of the set's {len(controls)} poses"
+        return f"{text} ({', '.join(known)}): the others are not seen; choose another --set"
+
     def rig(self, animation: Animation) -> RiggedModel:
         """Return the model with its morph targets' values over time.
 
@@ -227,8 +236,10 @@ def load_character(spec: str | Path, mapping: str | Path | None = None) -> Chara
     )
     if mappings or source not in BUILT_IN:
         rig = character.read_rig()
+        joints: dict[str, JointChannel] = {}
         for one, place in mappings:  # each by itself, so that an error names its own place
-            fit(rig, one, place)
+            fit(rig, replace(one, joints={**joints, **one.joints}), place)
+            joints |= one.joints
     return character
 
 
@@ -261,6 +272,8 @@ def _model(source: str, where: str) -> tuple[str, Callable[[], Gltf], Versions]:
     """Return a model's name, the model, and its files; ``where`` is who names it."""
     if source in BUILT_IN:
         return source, BUILT_IN[source], ()
+    if not source and not where:
+        raise CharacterError("no character", expected=f"{', '.join(BUILT_IN)}, or a file")
     if not source:
         raise CharacterError(
             "names no model",

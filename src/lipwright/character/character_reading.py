@@ -29,6 +29,13 @@ from lipwright.files import (
 
 FORMAT, VERSION = "lipwright/character", 1
 SUFFIX = ".json"
+_ELSEWHERE = {
+    "lipwright/face": "make a model with it: lipwright character build",
+    "lipwright/mapping": "it goes with --mapping",
+    "lipwright/bigram-overrides": "it goes with --overrides",
+    "lipwright/bigram-set": "it goes with --set",
+}
+"""Files that are taken for a character's, and where they belong."""
 Rows = dict[str, Row]
 
 
@@ -113,7 +120,9 @@ def _read_layer(path: Path, built_in: Collection[str]) -> CharacterLayer:
     data = read_bytes(path)
     if not data.strip():
         raise FileFormatError("is empty", where=where, expected=f"a file of format {FORMAT!r}")
-    document = check_document(parse_json(data, where), where, format=FORMAT, version=VERSION)
+    parsed = parse_json(data, where)
+    _refuse_other(parsed, where)
+    document = check_document(parsed, where, format=FORMAT, version=VERSION)
     read = convert(document, _Document, where)
     check_numbers(read.gains, read.limits, where)
     _check_rate(read.speech.rate, where)
@@ -138,6 +147,18 @@ def _read_layer(path: Path, built_in: Collection[str]) -> CharacterLayer:
         tuple(files),
         _digest(data, [name for name, _ in files[1:]], where),
     )
+
+
+def _refuse_other(document: Any, where: str) -> None:
+    """Say where a file of another format goes."""
+    found = document.get("format") if isinstance(document, dict) else None
+    if isinstance(found, str) and found in _ELSEWHERE:
+        raise FileFormatError(
+            f"a file of format {found!r}",
+            where=where,
+            expected=f"a file of format {FORMAT!r}",
+            cure=_ELSEWHERE[found],
+        )
 
 
 def _listed(parts: Any) -> list[Any]:

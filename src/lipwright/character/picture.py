@@ -33,6 +33,13 @@ _HOLLOW = "#3d2423"
 _LIGHT = np.array([-0.35, 0.5, 0.79])
 _DULL = 0.35
 _FINE = 10
+_STEPS = 6
+_POINTS = (
+    np.array([(i, j, _STEPS - i - j) for i in range(_STEPS + 1) for j in range(_STEPS + 1 - i)])
+    * (0.94 / _STEPS)
+    + 0.02
+)
+"""Points all over a triangle, as shares of its corners."""
 
 
 def mouth_picture(name: str, fitting: Fitting, calibration: Calibration) -> str:
@@ -108,7 +115,7 @@ def _triangles(
     width: float,
     on_page: Callable[[Floats], Floats],
 ) -> list[str]:
-    """Return the triangles about the mouth, those behind first."""
+    """Return the triangles about the mouth that are seen, those behind first."""
     triangles = face.triangles
     moved = points[triangles]
     offset = moved[:, :, :2] - centre
@@ -121,13 +128,31 @@ def _triangles(
     normals = _normals(moved)
     order = np.argsort(moved[:, :, 2].mean(axis=1), kind="stable")
     order = order[normals[order, 2] > 0]
+    order = order[_seen(on_page(moved[order]), moved[order, :, 2], 0.02 * width)]
     triangles, moved, normals = triangles[order], moved[order], normals[order]
     colors = _colors(face, triangles, normals)
     flat = np.round(_FINE * on_page(moved)).astype(int).tolist()
     return [
-        f'<path d="M{a} {b} {c} {d} {e} {f}z" color="{color}"/>'
+        f'<path d="M{a} {b}l{c - a} {d - b} {e - c} {f - d}z" color="{color}"/>'
         for ((a, b), (c, d), (e, f)), color in zip(flat, colors, strict=True)
     ]
+
+
+def _seen(corners: Floats, depths: Floats, near: float) -> NDArray[np.bool_]:
+    """Return which triangles are not hidden whole: looked at in points, on a grid of pixels.
+
+    ``corners`` (F, 3, 2) are in pixels, ``depths`` (F, 3) rise to the front; what lies less
+    than ``near`` behind another is still seen.
+    """
+    if not len(corners):
+        return np.zeros(0, np.bool_)
+    places = np.floor(_POINTS @ corners).astype(np.intp)
+    places -= places.min(axis=(0, 1))
+    pixel = places[..., 0] * (places[..., 1].max() + 1) + places[..., 1]
+    depth = depths @ _POINTS.T
+    front = np.full(pixel.max() + 1, -np.inf)
+    np.maximum.at(front, pixel.ravel(), depth.ravel())
+    return np.asarray((depth >= front[pixel] - near).any(axis=1))
 
 
 def _normals(corners: Floats) -> Floats:

@@ -47,7 +47,8 @@ class Rig:
     def targets(self) -> tuple[str, ...]:
         """The names of all morph targets but in-betweens, each once, in the file's order."""
         names = self.all_targets
-        return tuple(name for name in names if name not in between_names(names))
+        between = between_names(names)
+        return tuple(name for name in names if name not in between)
 
     @property
     def all_targets(self) -> tuple[str, ...]:

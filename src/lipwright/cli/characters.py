@@ -46,16 +46,25 @@ def inspect(
 ) -> None:
     """Say what the rig of MODEL has and how each pose is made from it.
 
-    MODEL is head, a character file (.json), or a .glb, .vrm or .gltf file. Of a character
-    file it says which of its layers each thing comes from.
+    MODEL is head, crab, a character file (.json), or a .glb, .vrm or .gltf file. Of a
+    character file it says which of its layers each thing comes from. Of a character of
+    pictures, such as rhubarb, it lists the mouth shapes and what each is for.
     """
-    from lipwright.casting import engine_for
+    from lipwright.casting import engine_for, files_read
     from lipwright.character import describe_character, inspect_character, load_character
+    from lipwright.character.pictures import is_pictures
+    from lipwright.cli.speak import keep_inputs
     from lipwright.files import write_atomically
 
+    written = [str(path) for path in (write, picture) if path is not None]
+    if is_pictures(model):
+        _inspect_pictures(model, mapping, written, as_json=as_json)
+        return
+    keep_inputs(written, (mapping, *files_read(model)))
     loaded = load_character(model, mapping=mapping)
     drawn = loaded.picture() if picture is not None else ""
-    of = engine_for(character=model).of if loaded.file is not None else None
+    drawn_for = loaded.file is not None or loaded.bigram_set
+    of = engine_for(character=model).of if drawn_for else None
     if write is not None:
         loaded.write_mapping(write)
     if picture is not None:
@@ -67,9 +76,27 @@ def inspect(
         click.echo(describe_character(loaded))
         if of is not None:
             click.echo(_set_text(of))
-        files = [str(path) for path in (write, picture) if path is not None]
-        if files:
-            click.echo(f"\nwritten: {', '.join(files)}")
+        if written:
+            click.echo(f"\nwritten: {', '.join(written)}")
+
+
+def _inspect_pictures(
+    model: str, mapping: Path | None, written: list[str], *, as_json: bool
+) -> None:
+    from lipwright.character.pictures import describe_pictures, inspect_pictures, load_pictures
+    from lipwright.errors import CharacterError
+
+    if mapping is not None or written:
+        raise CharacterError(
+            "a character of pictures has neither a mapping nor a mesh",
+            where=model,
+            cure="leave --mapping, --write and --picture out",
+        )
+    shapes = load_pictures(model)
+    if as_json:
+        click.echo(json.dumps(inspect_pictures(shapes), indent=1, ensure_ascii=False))
+    else:
+        click.echo(describe_pictures(shapes))
 
 
 def _set_facts(of: BigramSet) -> dict[str, object]:
@@ -112,6 +139,7 @@ def new(path: Path, model: str | None, base: str | None, bigram_set: str | None)
     if model is None and base is None:
         raise click.UsageError("give --model, --base, or both")
     if bigram_set is not None:
-        engine_for(bigram_set)  # refused before anything is written
+        # Refused before anything is written: the base may not suit the set.
+        engine_for(bigram_set, character=base or "head")
     start_character(path, model, base, bigram_set)
     click.echo(f"written: {path}; edit it, and give it with --character {path}")

@@ -53,6 +53,7 @@ _corpus = options.stack(
     "--overrides", type=click.Path(path_type=Path), metavar="FILE",
     help="A file whose bigrams are added to the set.",
 )  # fmt: skip
+@options.whose
 @_corpus
 @click.option(
     "--reduction", type=click.Path(path_type=Path), metavar="FILE",
@@ -71,6 +72,7 @@ def coverage(
     name: str | None,
     named: str | None,
     overrides: Path | None,
+    character: str | None,
     text: str | None,
     text_files: tuple[Path, ...],
     language: str | None,
@@ -91,14 +93,17 @@ def coverage(
     Without a text, labels or a language every pair of the set counts once.
     """
     from lipwright import corpus as corpora
+    from lipwright.casting import files_read, set_for
     from lipwright.cli.progress import progress
     from lipwright.engines.bigram.coverage_picture import check_picture, write_picture
 
     if name and named and name != named:
         raise click.UsageError(f"two sets, {name!r} and {named!r}: give one")
-    chosen = named or name or "english"
+    given_set = named or name
+    chosen = given_set or set_for(None, character).name
     if picture is not None:
-        check_picture(picture, (chosen, overrides, reduction, *text_files, *labels))
+        read = files_read(character or "head", given_set)
+        check_picture(picture, (*read, overrides, reduction, *text_files, *labels))
     if text is None and not text_files and language is not None:
         from lipwright.phones.languages import sample_text
 
@@ -108,9 +113,10 @@ def coverage(
     corpus = corpora.Corpus(text, text_files, labels, speaker, each_line, phone_set)
     with progress("counting") as report:
         found = corpora.coverage(
-            chosen,
+            given_set,
             corpus if given else None,
             overrides=overrides,
+            character=character,
             reduction=reduction,
             within_words=within_words,
             silence=not no_silence,

@@ -108,6 +108,12 @@ _recording = stack(
 )  # fmt: skip
 
 
+whose = click.option(
+    "--character", metavar="WHO",
+    help="The set as this character has it, with what its file changes.",
+)  # fmt: skip
+
+
 @dataclass(frozen=True, slots=True)
 class Recording:
     """A recording as it is named on the command line, with what is known of it."""

@@ -39,7 +39,7 @@ def tell(performance: Performance, written: Sequence[str], *, as_json: bool) -> 
     print(f"{_sentence(performance.speech)}; {frames}", file=stream)
     for path in written:
         if path != STANDARD_STREAM:
-            print(f"  {path}  ({ABOUT.get(suffix_of(path), 'written')})", file=stream)
+            print(f"  {path}  ({_about(path, performance)})", file=stream)
     notes(performance.speech)
     for text in performance.cues().notes if performance.flat else ():
         note(text)
@@ -58,6 +58,13 @@ def tell(performance: Performance, written: Sequence[str], *, as_json: bool) -> 
     if nearest:
         pairs = ", ".join(f"{label} as {name}" for label, name in nearest.items())
         note(f"sounds without a class of their own: {pairs}")
+
+
+def _about(path: str, performance: Performance) -> str:
+    suffix = suffix_of(path)
+    if suffix == ".html" and performance.flat:
+        return "speaking mouth: open it in a browser"
+    return ABOUT.get(suffix, "written")
 
 
 def tell_labels(speech: Speech, written: Sequence[str], *, as_json: bool) -> None:

@@ -35,21 +35,22 @@ bigram_set.add_command(coverage)
 
 @bigram_set.command()
 @click.argument("pair", metavar="PAIR")
-@click.option("--set", "name", default="english", show_default=True, metavar="SET")
+@click.option("--set", "name", metavar="SET", help="The set.  [default: english]")
+@options.whose
 @options.as_json
-def show(pair: str, name: str, as_json: bool) -> None:
+def show(pair: str, name: str | None, character: str | None, as_json: bool) -> None:
     """Draw the curves of a PAIR, such as f-ah, over its 0..1."""
-    from lipwright.engines.bigram.set_file import load_set
+    from lipwright.casting import set_for
     from lipwright.engines.bigram.stand_in import stand_in
     from lipwright.phones import SILENCE, load_phone_set
 
-    of = load_set(name)
+    of = set_for(name, character)
     labels = tuple(pair.lower().split("-"))
     known = load_phone_set(of.phone_set).labels
     silent = labels == (SILENCE, SILENCE)
     if len(labels) != 2 or silent or any(label not in known for label in labels):
         raise InputError(
-            f"{pair!r} is no pair of {name!r}",
+            f"{pair!r} is no pair of {name or of.name!r}",
             expected=f"two of {' '.join(known)}, such as f-ah",
         )
     key = (labels[0], labels[1])

@@ -151,7 +151,7 @@ def phones(
     from lipwright.cli.report import tell_labels
 
     pipeline.check_labels(*outputs)
-    _keep_inputs(outputs, recording.files)
+    keep_inputs(outputs, recording.files)
     speech = _speech(recording)
     pipeline.save_labels(speech, *outputs)
     tell_labels(speech, outputs, as_json=as_json)
@@ -190,20 +190,19 @@ def read_text(path: Path) -> str:
 
 
 def _check(outputs: tuple[str, ...], how: dict[str, Any], *inputs: object) -> None:
-    from lipwright.casting import character_file
+    from lipwright.casting import files_read
     from lipwright.character.pictures import is_pictures, load_pictures
     from lipwright.export import check_outputs, suffix_of
 
     check_outputs(outputs)
     if ".glb" in map(suffix_of, outputs) and is_pictures(how["character"]):
         load_pictures(how["character"]).no_model()
-    names = ("bigram_set", "overrides", "reduction", "edits", "character", "mapping", "pictures")
-    file = character_file(how["character"])
-    named = [path for path, _ in file.files] + [file.model[0]] if file else []
-    _keep_inputs(outputs, (*inputs, *named, *(how[name] for name in names)))
+    names = ("overrides", "reduction", "edits", "mapping", "pictures")
+    read = files_read(how["character"], how["bigram_set"])
+    keep_inputs(outputs, (*inputs, *read, *(how[name] for name in names)))
 
 
-def _keep_inputs(outputs: tuple[str, ...], inputs: Iterable[object]) -> None:
+def keep_inputs(outputs: Iterable[str], inputs: Iterable[object]) -> None:
     """Refuse to write over what the command reads."""
     read = {os.path.realpath(str(path)) for path in inputs if path and Path(str(path)).is_file()}
     for path in outputs:

@@ -27,6 +27,11 @@ LARGEST = 1 << 30
 """Larger files are refused before they are read, in bytes."""
 
 _MEDIA = {".png": "image/png", ".jpg": "image/jpeg", ".jpeg": "image/jpeg", ".webp": "image/webp"}
+_OTHERS = {
+    ".obj": "give it a mouth with 'lipwright character build'",
+    ".fbx": "convert it to GLB, with its blend shapes (shape keys)",
+    ".blend": "export it from Blender as GLB, with its shape keys",
+}
 _CURE = "export the model again, or fetch the file again"
 
 
@@ -127,7 +132,10 @@ def read_gltf(path: str | Path) -> Gltf:
     if data.lstrip(b"\xef\xbb\xbf \t\r\n")[:1] == b"{":
         return parse_gltf(data, str(path), path.parent)
     raise FileFormatError(
-        f"starts with {data[:4]!r}", where=str(path), expected="a GLB, VRM or glTF file"
+        f"starts with {data[:4]!r}",
+        where=str(path),
+        expected="a GLB, VRM or glTF file",
+        cure=_OTHERS.get(path.suffix.lower(), ""),
     )
 
 

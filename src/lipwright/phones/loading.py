@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from functools import cache, partial
+from functools import lru_cache, partial
 from pathlib import Path
 
 from lipwright.errors import LabelError, LipwrightError
-from lipwright.phones.reduction import Finder, Piece, Reduction, read_table
+from lipwright.files import file_version
+from lipwright.phones.reduction import Finder, Piece, Reduction, Table, read_table
 from lipwright.phones.sets import DATA, load_phone_set
 
 
-@cache
 def load_reduction(source: str, target: str = "common") -> Reduction:
     """Return the reduction between two phone sets, or the one in a file.
 
@@ -28,6 +28,12 @@ def load_reduction(source: str, target: str = "common") -> Reduction:
     LabelError
         If there is no such reduction.
     """
+    files = (name for name in (source, target) if name.endswith(".json"))
+    return _load(source, target, tuple(map(file_version, files)))
+
+
+@lru_cache(maxsize=64)
+def _load(source: str, target: str, versions: tuple[object, ...]) -> Reduction:
     if source == target:
         return Reduction(source, target, {}, lambda label: ((Piece(label),), True))
     by_path = source.endswith(".json")
@@ -35,13 +41,13 @@ def load_reduction(source: str, target: str = "common") -> Reduction:
     finder = None if by_path else _finder(source, target)
     base = "" if by_path or finder else _extended(target)
     if base:
-        own = read_table(path).pieces if path.exists() else {}
-        others = load_reduction(source, base)
-        return Reduction(source, target, own, partial(_own_or_base, own, others))
+        table = read_table(path) if path.exists() else Table(source, target, {})
+        finder = partial(_own_or_base, table, load_reduction(source, base))
+        return Reduction(source, target, table.pieces, finder, table.nearest)
     if by_path or path.exists():
         table = read_table(path)
         finder = _finder(table.source, table.target)
-        return Reduction(table.source, table.target, table.pieces, finder)
+        return Reduction(table.source, table.target, table.pieces, finder, table.nearest)
     if finder is None:
         raise LabelError(
             f"no reduction from {source!r} to {target!r}", cure="write one, and give its path"
@@ -57,12 +63,10 @@ def _extended(target: str) -> str:
         return ""  # the caller names both ends of what is missing
 
 
-def _own_or_base(
-    own: dict[str, tuple[Piece, ...]], base: Reduction, label: str
-) -> tuple[tuple[Piece, ...], bool] | None:
+def _own_or_base(own: Table, base: Reduction, label: str) -> tuple[tuple[Piece, ...], bool] | None:
     """Return what a label becomes: by the own rows, else by the base."""
-    if label in own:
-        return own[label], True
+    if label in own.pieces:
+        return own.pieces[label], label not in own.nearest
     try:
         return base.of(label)
     except LabelError:

@@ -9,13 +9,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from functools import cache
+from functools import lru_cache
 from pathlib import Path
 
 import msgspec
 
 from lipwright.errors import LabelError
-from lipwright.files import convert, read_document
+from lipwright.files import convert, file_version, read_document
 from lipwright.phones.sets import SILENCE, load_phone_set
 from lipwright.phones.track import PhoneTrack
 from lipwright.timeline import Interval
@@ -82,12 +82,15 @@ class Reduction:
     finder : function, optional
         Asked for labels that are not in the table; it returns the pieces and whether
         they are exact, or None where it knows no answer either.
+    nearest : frozenset of str
+        Labels whose class in the table only stands in.
     """
 
     source: str
     target: str
     table: dict[str, tuple[Piece, ...]]
     finder: Finder | None = None
+    nearest: frozenset[str] = frozenset()
 
     def of(self, label: str) -> tuple[tuple[Piece, ...], bool]:
         """Return the pieces of one label and whether they are exact.
@@ -97,9 +100,10 @@ class Reduction:
         LabelError
             If neither the table nor the finder knows the label.
         """
-        pieces = self.table.get(label) or self.table.get(self._spelled(label))
-        if pieces is not None:
-            return pieces, True
+        name = label if label in self.table else self._spelled(label)
+        pieces = self.table.get(name)
+        if pieces:
+            return pieces, name not in self.nearest
         found = self.finder(label) if self.finder is not None else None
         if found is None:
             raise LabelError(
@@ -188,24 +192,30 @@ class _Document(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     target: str
     map: dict[str, str | list[Piece]]
     about: str = ""
+    nearest: list[str] = []
 
 
 @dataclass(frozen=True, slots=True)
 class Table:
-    """The content of a reduction file: ``pieces`` of each label of ``source``."""
+    """A reduction file: ``pieces`` of each label of ``source``; ``nearest`` only stand in."""
 
     source: str
     target: str
     pieces: dict[str, tuple[Piece, ...]]
+    nearest: frozenset[str] = frozenset()
 
 
-@cache
 def read_table(path: Path) -> Table:
-    """Return the content of a reduction file."""
+    """Return the content of a reduction file; it is read anew when it changes."""
+    return _read_table(path, file_version(path))
+
+
+@lru_cache(maxsize=64)
+def _read_table(path: Path, version: object) -> Table:
     document = read_document(path, format="lipwright/reduction", version=1)
     read = convert(document, _Document, str(path))
     pieces = {
         label: (Piece(value),) if isinstance(value, str) else tuple(value)
         for label, value in read.map.items()
     }
-    return Table(read.source, read.target, pieces)
+    return Table(read.source, read.target, pieces, frozenset(read.nearest))

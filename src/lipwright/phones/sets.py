@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass, field
-from functools import cache
+from functools import lru_cache
 from pathlib import Path
 
 import msgspec
 
 from lipwright.errors import LabelError
-from lipwright.files import convert, read_document
+from lipwright.files import convert, file_version, read_document
 
 SILENCE = "sil"
 DATA = Path(__file__).parent.parent / "data" / "phones"
@@ -103,9 +103,16 @@ class PhoneSet:
         return spelled
 
 
-@cache
 def load_phone_set(name: str) -> PhoneSet:
-    """Return a phone set by its name, or from a path ending in ``.json``."""
+    """Return a phone set by its name, or from a path ending in ``.json``.
+
+    Such a file is read anew when it changes.
+    """
+    return _load(name, file_version(name) if name.endswith(".json") else None)
+
+
+@lru_cache(maxsize=64)
+def _load(name: str, version: object) -> PhoneSet:
     path = Path(name) if name.endswith(".json") else DATA / f"{name}.json"
     if not name.endswith(".json") and not path.exists():
         raise LabelError(

@@ -5,6 +5,7 @@ file that names any other list; :func:`hold` chooses which shape is shown when.
 """
 
 from lipwright.character.pictures.choosing import choose
+from lipwright.character.pictures.describing import describe_pictures, inspect_pictures
 from lipwright.character.pictures.holding import hold
 from lipwright.character.pictures.picture_file import (
     BUILT_IN_PICTURES,
@@ -21,7 +22,9 @@ __all__ = [
     "Shape",
     "Timing",
     "choose",
+    "describe_pictures",
     "hold",
+    "inspect_pictures",
     "is_pictures",
     "load_pictures",
 ]

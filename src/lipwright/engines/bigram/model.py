@@ -16,6 +16,7 @@ import msgspec
 from lipwright.curves import Keys
 from lipwright.engines.bigram.layer import Layer
 from lipwright.errors import InputError, SetError, did_you_mean
+from lipwright.files import Version
 from lipwright.phones import SILENCE
 
 Pair = tuple[str, str]
@@ -271,6 +272,8 @@ class BigramSet:
         What characters and override files changed, the last one on top.
     beneath : BigramSet, optional
         The set as it was before the first of them.
+    files : tuple of (str, Version)
+        All files that it was read from: its own, its base's and their phone sets.
 
     Raises
     ------
@@ -289,6 +292,7 @@ class BigramSet:
     digest: str = ""
     layers: tuple[Layer, ...] = ()
     beneath: BigramSet | None = None
+    files: tuple[tuple[str, Version | None], ...] = ()
 
     def __post_init__(self) -> None:
         known = set(self.rules.names)

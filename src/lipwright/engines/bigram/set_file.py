@@ -24,6 +24,7 @@ from lipwright.engines.bigram.model import (
 from lipwright.errors import InputError, SetError, did_you_mean
 from lipwright.files import (
     convert,
+    file_version,
     format_number,
     format_row,
     quote,
@@ -96,12 +97,13 @@ def read_set(path: str | Path) -> BigramSet:
 
 
 def _read_set(path: Path, above: tuple[Path, ...]) -> BigramSet:
-    where = str(path)
+    where, version = str(path), file_version(path)
     read = convert(read_document(path, format=FORMAT, version=VERSION), _Set, where)
     try:
         # A user's own phone set is a file beside the set.
         own = read.phone_set.endswith(".json")
         phone_set = str(path.parent / read.phone_set) if own else read.phone_set
+        phones_version = file_version(phone_set)
         classes = load_phone_set(phone_set)
         for label in (*read.phones, *read.reach):
             check_label(label, classes)
@@ -119,6 +121,7 @@ def _read_set(path: Path, above: tuple[Path, ...]) -> BigramSet:
             {**base.presets, **read.presets},
             read.about,
             digest_of(base.digest.encode() + read_bytes(path)),
+            files=(*base.files, *([(phone_set, phones_version)] if own else []), (where, version)),
         )
     except InputError as error:
         raise error.at(where) from None
