@@ -131,3 +131,25 @@ def test_what_only_stands_in_is_told(tmp_path: Path) -> None:
     path.write_text(json.dumps(table), "utf-8")
     found = load_reduction(str(path))
     assert [found.of(label)[1] for label in ("AA", "ZH")] == [True, False]
+
+
+@pytest.mark.parametrize(
+    ("source", "target", "own", "label", "usual"),
+    [
+        ("pinyin", "mandarin", {"x": "sh"}, "er", "er"),
+        ("pinyin", "mandarin", {"x": "sh"}, "ü", "yu"),
+        ("arpabet", "common", {"zh": "z"}, "uw", "w"),
+    ],
+)
+def test_a_users_file_names_only_what_differs(
+    tmp_path: Path, source: str, target: str, own: dict[str, str], label: str, usual: str
+) -> None:
+    path = tmp_path / "own.json"
+    head = {"format": "lipwright/reduction", "version": 1, "source": source, "target": target}
+    path.write_text(json.dumps({**head, "map": own}), "utf-8")
+    reduction = load_reduction(str(path))
+    for changed, piece in own.items():
+        assert [each.label for each in reduction.of(changed)[0]] == [piece]
+    assert [each.label for each in reduction.of(label)[0]] == [usual]
+    with pytest.raises(LabelError, match="no class in the reduction"):
+        reduction.of("§")

@@ -22,6 +22,23 @@ def test_words_come_in_the_phones_of_the_dictionary() -> None:
     assert {phone for phones in found.values() for phone in phones} <= known
 
 
+@pytest.mark.parametrize(
+    ("language", "word", "phones"),
+    [
+        ("ru", "рыба", ("r", "ih", "b", "aa")),  # its voice writes ы as y, which is ü in the IPA
+        ("ru", "hello", ("hh", "ah", "l", "ow")),  # and this word in English
+        ("de", "rot", ("g", "ow", "t")),
+        ("de_AT", "rot", ("g", "ow", "t")),
+        ("de-AT", "Jobs", ("jh", "aa", "b", "z")),
+        ("hi", "चाय", ("ch", "aa", "y")),
+    ],
+)
+def test_labels_mean_what_they_mean_in_their_language(
+    language: str, word: str, phones: tuple[str, ...]
+) -> None:
+    assert pronounce([word], language) == {word: phones}
+
+
 def test_what_cannot_be_read_is_left_out() -> None:
     assert list(pronounce(["", "---", "日本", "мир", "x\0y", "yes"])) == ["x\0y", "yes"]
 

@@ -17,7 +17,8 @@ def load_reduction(source: str, target: str = "common") -> Reduction:
     Parameters
     ----------
     source : str
-        A phone set's name, or the path of a reduction file ending in ``.json``.
+        A phone set's name, or the path of a reduction file ending in ``.json``, which need
+        name only what differs from the reduction that comes with Lipwright, if one does.
     target : str
         The phone set to reduce to: its name, or its path. IPA and SAMPA reduce to any set
         whose classes have segments in IPA. Where it extends another set, that one's
@@ -46,7 +47,7 @@ def _load(source: str, target: str, versions: tuple[object, ...]) -> Reduction:
         return Reduction(source, target, table.pieces, finder, table.nearest)
     if by_path or path.exists():
         table = read_table(path)
-        finder = _finder(table.source, table.target)
+        finder = _finder(table.source, table.target) or (_usual(table) if by_path else None)
         return Reduction(table.source, table.target, table.pieces, finder, table.nearest)
     if finder is None:
         raise LabelError(
@@ -61,6 +62,15 @@ def _extended(target: str) -> str:
         return load_phone_set(target).extends
     except LabelError:
         return ""  # the caller names both ends of what is missing
+
+
+def _usual(table: Table) -> Finder | None:
+    """What finds the labels that a user's file leaves as they are."""
+    none = Table(table.source, table.target, {})
+    try:
+        return partial(_own_or_base, none, load_reduction(table.source, table.target))
+    except LabelError:  # there is no other reduction between these sets
+        return None
 
 
 def _own_or_base(own: Table, base: Reduction, label: str) -> tuple[tuple[Piece, ...], bool] | None:

@@ -10,8 +10,9 @@ from collections.abc import Iterable, Sequence
 
 from lipwright.errors import LabelError, TextError
 from lipwright.phones import SILENCE, Reduction, load_reduction
+from lipwright.schedule.align.acoustics import sounds_like
 from lipwright.schedule.say import espeak
-from lipwright.schedule.say.spelling import plain_label
+from lipwright.schedule.say.spelling import plain_labels
 from lipwright.schedule.say.voices import (
     as_voices,
     check_script,
@@ -52,8 +53,9 @@ def pronounce(words: Iterable[str], language: str = "en-us") -> dict[str, tuple[
     if not wanted:
         return {}
     reduction = load_reduction("ipa", "arpabet")
+    spelled = language.lower().replace("_", "-")
     spoken = zip(wanted, _ask(wanted, language), strict=True)
-    found = {word: _arpabet(labels, reduction) for word, labels in spoken}
+    found = {word: _arpabet(labels, spelled, reduction) for word, labels in spoken}
     return {word: phones for word, phones in found.items() if phones}
 
 
@@ -77,15 +79,14 @@ def _ask(words: list[str], language: str) -> list[list[str]]:
     return espeak.pronounce(plain, file)
 
 
-def _arpabet(labels: Sequence[str], reduction: Reduction) -> tuple[str, ...]:
-    """Return the phones, or nothing where one of them has no English counterpart."""
+def _arpabet(labels: Sequence[str], language: str, reduction: Reduction) -> tuple[str, ...]:
+    """Return the phones; a sound that English lacks is the one nearest to the ear."""
     phones: list[str] = []
-    for label in map(plain_label, labels):
+    for label in plain_labels(labels, language):
         if label in ("", SILENCE):
             continue
         try:
-            pieces, _ = reduction.of(label)
+            phones += [piece.label for piece in reduction.of(label)[0]]
         except LabelError:
-            return ()
-        phones += [piece.label for piece in pieces]
+            phones += sounds_like(label, language)[0]
     return tuple(phones)

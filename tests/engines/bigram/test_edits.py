@@ -51,6 +51,24 @@ def test_an_edit_follows_its_phone_when_the_line_is_spoken_anew() -> None:
     assert at(slower, "open", 0.2 * 1.7) == pytest.approx(at(plain, "open", 0.2 * 1.7))
 
 
+@pytest.mark.parametrize(
+    ("spoken", "named", "found"),
+    [
+        ("Grüße", "GRU\u0308SSE", True),
+        ("İstanbul", "istanbul", True),
+        ("مَرحبا", "مرحبا", True),
+        ("L’eau,", "l'eau", True),
+        ("女儿", "女儿", True),
+        ("की", "के", False),  # two words of Hindi, of one consonant and a vowel each
+    ],
+)
+def test_a_word_is_found_in_any_spelling_of_it(spoken: str, named: str, found: bool) -> None:
+    line = Speech(PhoneTrack(Tier.of(("m", 0, 0.1), ("ae", 0.1, 0.3))), Tier.of((spoken, 0, 0.3)))
+    report = ENGINE.animate(line, 100.0, [Edit(named, 2, "open", gain=0.5)]).report
+    assert len(report["edits"]) == found
+    assert len(report["edits_lost"]) == (not found)
+
+
 def test_a_level_is_reached_even_where_nothing_was_drawn() -> None:
     assert at(edited(), "ShCh", 0.2) < 0.05
     assert at(edited(Edit("map", 2, "ShCh", level=0.8)), "ShCh", 0.2) > 0.6

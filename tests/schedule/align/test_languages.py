@@ -53,6 +53,20 @@ def test_phones_lie_where_they_were_spoken(language: str) -> None:
     assert np.mean(apart < 0.05) > 0.9
 
 
+def test_a_fricative_that_noise_hides_is_no_pause() -> None:
+    text = "老师让学生们把黑板擦干净，我妹妹喜欢在晚上看书。"
+    said = say(text, voice="cmn")
+    clean = sound_of(said).samples
+    loud = np.sqrt(np.mean(np.square(clean)))
+    noise = 0.1 * loud * np.random.default_rng(7).standard_normal(len(clean))
+    noisy = Sound((clean + noise).astype(np.float32), sound_of(said).rate)
+    ours, own = sounding(align(noisy, text, language="cmn")), sounding(said)
+    assert [label for label, _ in ours] == [label for label, _ in own]
+    apart = [a - b for (label, a), (_, b) in zip(ours, own, strict=True) if label == "sh"]
+    assert len(apart) == 4
+    assert max(map(abs, apart)) < 0.03
+
+
 @pytest.mark.parametrize("language", LINES)
 def test_words_stay_as_they_are_written(language: str) -> None:
     ours, own = found(language), spoken(language)

@@ -27,6 +27,9 @@ def rows(text: str, step: float = 0.1) -> list[Row]:
         ("j 9 t S", "sampa"),
         ("d i:", "sampa"),
         ("m ai n ts u", "ipa"),
+        ("n i h ao sh i j ê", "pinyin"),
+        ("z ii zh iii l ü HH AH L OW", "pinyin"),
+        ("q i ch u a ng", "pinyin"),
     ],
 )
 def test_the_phone_set_is_guessed(text: str, name: str) -> None:

@@ -130,6 +130,16 @@ def test_rate_and_pitch_are_heard() -> None:
     assert usual.sound.samples.tobytes() != high.sound.samples.tobytes()
 
 
+@pytest.mark.parametrize("voice", ["en-us", "de", "cmn"])
+def test_the_fastest_rate_keeps_every_phone_in_its_place(voice: str) -> None:
+    text = "Ni hao! " * 20 if voice == "cmn" else f"{LINE} " * 5
+    fast = say(text, voice=voice, rate=450)
+    slow = say(text, voice=voice, rate=300)
+    assert len(fast.words) == len(slow.words)
+    assert fast.duration < 0.8 * slow.duration
+    assert all(phone.duration > 0 for phone in fast.phones)
+
+
 def test_scripts_without_spaces_get_their_words_from_the_voice() -> None:
     speech = say("你好，世界。", voice="cmn")
     assert "".join(speech.words.labels) == "你好世界"
@@ -164,6 +174,10 @@ def test_a_text_that_cannot_be_said_is_refused(text: str, voice: str, words: str
         ({"rate": 10}, "rate 10; expected 80 to 450 words per minute"),
         ({"rate": float("nan")}, "rate nan"),
         ({"pitch": 100}, "pitch 100; expected 0 to 99"),
+        (
+            {"voice": "en-us+fast", "rate": 430},
+            "rate 430 with the voice 'en-us\\+fast': .*; expected fewer words per minute",
+        ),
         ({"engine": "flute"}, "no speech engine 'flute'; expected espeak or festival"),
     ],
 )

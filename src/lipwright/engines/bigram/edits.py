@@ -10,6 +10,7 @@ anew act after stage 5, and the bounds are then solved again, unless the edit is
 
 from __future__ import annotations
 
+import unicodedata
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
@@ -146,7 +147,16 @@ def _phone(edit: Edit, phones: Sequence[Interval], words: Tier) -> Interval | No
 
 
 def _plain(word: str) -> str:
-    return "".join(letter for letter in word.casefold() if letter.isalnum())
+    """Return a word in one spelling: any case, either Unicode form, without punctuation."""
+    folded = unicodedata.normalize("NFC", unicodedata.normalize("NFC", word).casefold())
+    return "".join(letter for letter in folded if letter.isalnum() or _is_written(letter))
+
+
+def _is_written(mark: str) -> bool:
+    # Hindi's vowels are marks; Hebrew's and Arabic's (classes 10 to 35) need not be written,
+    # and the dot is what casefold leaves of the Turkish capital of i.
+    is_mark = unicodedata.category(mark) in ("Mn", "Mc") and mark != "\u0307"
+    return is_mark and not 10 <= unicodedata.combining(mark) <= 35
 
 
 def scale_placed(placed: Placed, found: Sequence[Found], order: Sequence[str]) -> Placed:

@@ -4,13 +4,14 @@ The model was trained on American English, so a French /y/ has to be looked for 
 English phones nearest to it: nearest to the ear, where the reduction to the Common
 Phoneme Set goes by what is seen of the lips (:mod:`lipwright.phones.ipa`). The table is
 data (``data/acoustics/ipa.json``); where it is uncertain it names several phones, and
-the sound decides among them.
+the sound decides among them. A phone set of one language may have a table of its own
+beside it (``pinyin.json``).
 """
 
 from __future__ import annotations
 
 import unicodedata
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import cache
 from itertools import islice, product
 from pathlib import Path
@@ -23,9 +24,10 @@ from lipwright.phones import load_phone_set
 from lipwright.schedule.align.lexicon import Pronunciation, Ways
 from lipwright.schedule.align.pronouncing import Way
 
-DATA = Path(__file__).parents[2] / "data" / "acoustics" / "ipa.json"
+DATA = Path(__file__).parents[2] / "data" / "acoustics"
 _STOPS = frozenset("ptkbdg")
 _MOST_WAYS = 6  # pronunciations of a word; more cost time and bring nothing
+_FEWEST_WAYS = 2  # of each reading of a word
 
 
 class _Language(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
@@ -87,14 +89,43 @@ def ways_of(labels: Sequence[str], language: str = "") -> tuple[Way, ...]:
     optional = set(_language(language).optional)
     kept = tuple(label for label in labels if label not in optional)
     fewer = [kept] if kept and len(kept) < len(labels) else []
+    options = {label: sounds_like(label, language) for label in labels}
     most = _MOST_WAYS // (1 + len(fewer))
     return tuple(
-        way for said in (tuple(labels), *fewer) for way in islice(_departures(said, language), most)
+        way for said in (tuple(labels), *fewer) for way in islice(_departures(said, options), most)
     )
 
 
-def _departures(labels: Sequence[str], language: str) -> Iterator[Way]:
-    options = {label: sounds_like(label, language) for label in labels}
+def ways_by_table(said: Sequence[Sequence[str]], phone_set: str) -> tuple[Way, ...]:
+    """Return the ways in which a word may sound that is said in one or several ways.
+
+    Parameters
+    ----------
+    said : sequence of sequence of str
+        Entries of the phone set's own table.
+    phone_set : str
+        A set that has one: ``"pinyin"``.
+
+    Raises
+    ------
+    LabelError
+        If the table has no such entry.
+
+    Examples
+    --------
+    >>> ways_by_table([("sh", "i-")], "pinyin")[:2]
+    ((('sh', ('sh',)), ('i-', ('y',))), (('sh', ('f',)), ('i-', ('y',))))
+    """
+    table = _table(phone_set)
+    unknown = {entry for way in said for entry in way} - set(table)
+    if unknown:
+        raise LabelError(f"no sound is known for {', '.join(map(repr, sorted(unknown)))}")
+    most = max(_FEWEST_WAYS, _MOST_WAYS // len(said))
+    return tuple(way for each in said for way in islice(_departures(each, table), most))
+
+
+def _departures(labels: Sequence[str], table: Mapping[str, Ways]) -> Iterator[Way]:
+    options = {label: table[label] for label in labels}
     best = {label: ways[0] for label, ways in options.items()}
     yield _way(labels, best, options)
     for rank in range(1, max(map(len, options.values()))):
@@ -145,16 +176,26 @@ def _apart(label: str) -> str:
 
 @cache
 def _sounds(language: str) -> dict[str, Ways]:
-    rows = {**_document().sounds, **_language(language).sounds}
-    return {_apart(key): tuple(tuple(way.split()) for way in ways) for key, ways in rows.items()}
+    rows = {**_document("ipa").sounds, **_language(language).sounds}
+    return {_apart(key): _as_ways(ways) for key, ways in rows.items()}
+
+
+@cache
+def _table(phone_set: str) -> dict[str, Ways]:
+    return {key: _as_ways(ways) for key, ways in _document(phone_set).sounds.items()}
+
+
+def _as_ways(written: Sequence[str]) -> Ways:
+    return tuple(tuple(way.split()) for way in written)
 
 
 def _language(name: str) -> _Language:
-    languages = _document().languages
+    languages = _document("ipa").languages
     return languages.get(name) or languages.get(name.split("-")[0]) or _Language()
 
 
 @cache
-def _document() -> _Document:
-    read = read_document(DATA, format="lipwright/acoustics", version=1)
-    return convert(read, _Document, str(DATA))
+def _document(phone_set: str) -> _Document:
+    path = DATA / f"{phone_set}.json"
+    read = read_document(path, format="lipwright/acoustics", version=1)
+    return convert(read, _Document, str(path))

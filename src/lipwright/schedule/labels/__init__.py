@@ -47,6 +47,7 @@ WRITERS = {
 
 _BINARY_TEXTGRID = b"ooBinaryFile"
 _SNIFFED = ("textgrid", "speech_json", "esps", "audacity", "ctm", "htk")
+_LANGUAGES = {"pinyin": "cmn"}  # of phone sets that belong to a single one
 _BESIDE = {".phn": ".wrd", ".wrd": ".phn"}
 
 
@@ -184,7 +185,7 @@ def speech_from_labels(
         labels.words,
         sound,
         labels.text or " ".join(labels.words.labels),
-        labels.language,
+        labels.language or _LANGUAGES.get(labels.phones.phone_set, ""),
         "labels",
         labels.confidence,
         sound.notes if sound is not None else (),

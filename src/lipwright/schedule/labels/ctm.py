@@ -1,6 +1,8 @@
 """CTM, the time-marked tokens of NIST's sctk: ``file channel start duration label [conf]``.
 
-Seconds; lines from ``;;`` on are comments. Kaldi's marks of a phone's place in its word
+Seconds; lines from ``;;`` on are comments; one that
+names the phone set (``;; phone set: pinyin``) is heeded, and written where the labels
+alone would be taken for another's. Kaldi's marks of a phone's place in its word
 (``AH0_I``) are dropped. What is written are the phones; it loses the words.
 """
 
@@ -13,10 +15,11 @@ from pathlib import Path
 
 from lipwright.errors import LabelError
 from lipwright.files import format_number
-from lipwright.schedule.labels.notation import is_silence
-from lipwright.schedule.labels.rows import Line, Parsed, Row, is_number, lines
+from lipwright.schedule.labels.notation import has_to_be_named, is_silence
+from lipwright.schedule.labels.rows import Line, Parsed, Row, decode, is_number, lines
 from lipwright.speech import Speech
 
+_NAMED = re.compile(r"^;;\s*phone set:\s*(\S+)\s*$", re.MULTILINE)
 _POSITION = re.compile(r"(?<=.)_[BIES]$")
 
 
@@ -37,7 +40,9 @@ def parse(data: bytes, where: str) -> Parsed:
         them is called as the file is.
     """
     found = [line for line in lines(data, where) if not line.text.startswith(";;")]
-    return Parsed(tuple(_without_positions([_row(line) for line in _one_recording(found, where)])))
+    rows = _without_positions([_row(line) for line in _one_recording(found, where)])
+    named = _NAMED.search("\n".join(decode(data, where).splitlines()))
+    return Parsed(tuple(rows), phone_set=named[1] if named else "")
 
 
 def _one_recording(found: list[Line], where: str) -> list[Line]:
@@ -74,7 +79,8 @@ def _without_positions(rows: Sequence[Row]) -> list[Row]:
 
 def encode(speech: Speech) -> bytes:
     """Return the phones as CTM, of a recording called ``speech``."""
-    written = []
+    named = has_to_be_named(speech.phones)
+    written = [f";; phone set: {speech.phones.phone_set}\n"] if named else []
     for phone in speech.phones:
         start, duration = format_number(phone.start, 6), format_number(phone.duration, 6)
         sure = "" if phone.confidence is None else f" {format_number(phone.confidence)}"

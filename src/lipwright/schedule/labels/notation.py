@@ -12,10 +12,16 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from lipwright.errors import LabelError
-from lipwright.phones import SILENCE, load_phone_set, load_reduction
+from lipwright.phones import (
+    SILENCE,
+    PhoneTrack,
+    load_phone_set,
+    load_reduction,
+    phone_set_names,
+)
 from lipwright.schedule.labels.rows import Row
 
-GUESSED = ("arpabet", "ipa", "sampa")
+GUESSED = ("arpabet", "ipa", "sampa", "pinyin")
 """The phone sets that are tried, in this order, where neither user nor file names one."""
 
 SILENCES = frozenset(
@@ -28,6 +34,8 @@ SILENCES = frozenset(
 CLOSURES = {"bcl": "b", "dcl": "d", "gcl": "g", "pcl": "p", "tcl": "t", "kcl": "k"}
 _AFFRICATES = {"dcl": "jh", "tcl": "ch"}
 _VOWEL_LETTERS = "aeiou"
+# Pinyin whose letters IPA has too, though no language has a phone of that name.
+_NO_IPA = frozenset(("zh", "ch", "sh", "ng", "ii", "iii", "ê", "ü"))
 _MOST_NAMED = 12
 _LONGEST = 3
 
@@ -54,10 +62,24 @@ def guess(labels: Sequence[str]) -> str:
     return min(GUESSED, key=lambda name: _strangeness(labels, name))
 
 
+def has_to_be_named(track: PhoneTrack) -> bool:
+    """Tell whether these labels would be taken for those of another phone set.
+
+    Examples
+    --------
+    >>> from lipwright.timeline import Tier
+    >>> has_to_be_named(PhoneTrack(Tier.of(("sh", 0, 1), ("ao", 1, 2)), "pinyin"))
+    True
+    """
+    sounding = [label for label in track.tier.labels if not is_silence(label)]
+    return track.phone_set in phone_set_names() and guess(sounding) != track.phone_set
+
+
 def _strangeness(labels: Sequence[str], name: str) -> int:
     strange = set(_unknown(labels, name))
     if name == "ipa":
         strange.update(filter(_is_wordlike, labels))
+        strange.update(_NO_IPA.intersection(labels))
     return len(strange)
 
 

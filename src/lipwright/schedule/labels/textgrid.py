@@ -3,7 +3,9 @@
 Praat reads such a file as a row of numbers, quoted strings and flags and passes over
 everything else (Praat manual, "TextGrid file formats"); one reader of tokens therefore
 serves the long and the short form, and can name the line of a mistake. Points tiers
-are passed over. What is written is the long form in UTF-8; it loses confidences.
+are passed over. What is written is the long form in UTF-8; it loses confidences. A tier
+of phones may name their set, as in ``phones (pinyin)``: it does where the labels alone
+would be taken for another's.
 """
 
 from __future__ import annotations
@@ -13,8 +15,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from lipwright.errors import LabelError
-from lipwright.phones import SILENCE
-from lipwright.schedule.labels.notation import fits_a_phone_set
+from lipwright.phones import SILENCE, phone_set_names
+from lipwright.schedule.labels.notation import fits_a_phone_set, has_to_be_named
 from lipwright.schedule.labels.rows import Parsed, Row, decode, is_number
 from lipwright.speech import Speech
 from lipwright.timeline import Tier
@@ -35,6 +37,7 @@ PHONE_TIERS = (
 )
 WORD_TIERS = ("words", "word", "ort-mau", "ort", "orthography", "tokens", "wrd")
 
+_NAMED = re.compile(r"\s*\((\w+)\)\s*$")
 _TOKEN = re.compile(
     r'(?P<string>"(?:[^"]|"")*")|(?P<open>")|(?P<comment>(?<!\S)!.*)|(?P<word>[^\s"=]+)|\n'
 )
@@ -68,7 +71,12 @@ def parse(data: bytes, where: str) -> Parsed:
     tiers = _tiers(_Tokens(decode(data, where), where))
     phones = _phones(tiers, where)
     words = next((tier.rows for tier in tiers if _is_named(tier.name, WORD_TIERS)), ())
-    return Parsed(phones.rows, words if words != phones.rows else ())
+    named = _NAMED.search(phones.name)
+    return Parsed(
+        phones.rows,
+        words if words != phones.rows else (),
+        phone_set=named[1].casefold() if named and named[1].casefold() in phone_set_names() else "",
+    )
 
 
 class _Tokens:
@@ -160,14 +168,18 @@ def _interval(tokens: _Tokens, name: str) -> Row:
 
 
 def _is_named(name: str, names: tuple[str, ...]) -> bool:
+    return _plain_name(name) in names
+
+
+def _plain_name(name: str) -> str:
     # The Montreal aligner puts the speaker first: "mary - phones".
-    return name.strip().casefold().rpartition(" - ")[2] in names
+    return _NAMED.sub("", name).strip().casefold().rpartition(" - ")[2]
 
 
 def _phones(tiers: list[_TierRows], where: str) -> _TierRows:
     named = [tier for tier in tiers if _is_named(tier.name, PHONE_TIERS)]
     if len(named) > 1:
-        best = min(PHONE_TIERS.index(tier.name.casefold().rpartition(" - ")[2]) for tier in named)
+        best = min(PHONE_TIERS.index(_plain_name(tier.name)) for tier in named)
         named = [tier for tier in named if _is_named(tier.name, (PHONE_TIERS[best],))]
     found = named or [
         tier
@@ -190,7 +202,8 @@ def encode(speech: Speech) -> bytes:
     """Return a TextGrid with the tiers ``words`` and ``phones``; silence is unlabelled."""
     start = min(0.0, speech.phones.tier.start, speech.words.start)
     end = max(speech.duration, speech.phones.tier.end, speech.words.end)
-    tiers = [("words", speech.words), ("phones", speech.phones.tier)]
+    named = f" ({speech.phones.phone_set})" if has_to_be_named(speech.phones) else ""
+    tiers = [("words", speech.words), (f"phones{named}", speech.phones.tier)]
     head = [
         'File type = "ooTextFile"',
         'Object class = "TextGrid"',

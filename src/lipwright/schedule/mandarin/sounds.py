@@ -50,6 +50,7 @@ _ESPEAK_FINALS = {"iong": "j'ong{}", "ê": "'E{}", "m": "'@{}m", "ng": "'@{}N", 
 _ODD_FINALS = ("ê", "m", "ng")
 
 _GLIDES = ("i", "u", "ü")
+_AFTER_GLIDES = ("a", "o", "e", "ê", "ai", "ei", "ao", "ou")
 _VOWEL, _REST = 2.0, 1.0
 
 
@@ -74,9 +75,14 @@ def shares(phones: tuple[str, ...]) -> tuple[float, ...]:
     """
     result = []
     for phone, following in zip(phones, (*phones[1:], ""), strict=True):
-        is_glide = phone in _GLIDES and following not in ("", "n", "ng", "er")
-        result.append(_VOWEL if is_vowel(phone) and not is_glide else _REST)
+        long = is_vowel(phone) and not is_glide(phone, following)
+        result.append(_VOWEL if long else _REST)
     return tuple(result)
+
+
+def is_glide(phone: str, following: str) -> bool:
+    """Whether a vowel is the short beginning of the one that follows in its syllable."""
+    return phone in _GLIDES and (following in _AFTER_GLIDES or (phone, following) == ("ü", "u"))
 
 
 def is_vowel(phone: str) -> bool:

@@ -10,10 +10,9 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from lipwright.errors import MissingExtraError, TextError
-from lipwright.phones import load_reduction
 from lipwright.schedule.mandarin.pinyin import Syllable
 from lipwright.schedule.mandarin.reading import Word, read
-from lipwright.schedule.mandarin.sounds import sounds
+from lipwright.schedule.mandarin.sounds import is_glide, sounds
 
 Phones = tuple[str, ...]
 AcousticWay = tuple[tuple[str, Phones], ...]
@@ -35,18 +34,19 @@ class Pronounced:
     ways: tuple[Phones, ...]
 
     def acoustic(self) -> tuple[AcousticWay, ...]:
-        """Return each way as pairs of a phone and what an English acoustic model hears in it.
+        """Return what an English acoustic model may hear: for each way, its phones with theirs.
+
+        Where it is uncertain what a phone sounds like, a way comes several times.
 
         Examples
         --------
-        >>> Pronounced("字", (("z", "ii"),)).acoustic()
-        ((('z', ('d', 'z')), ('ii', ('z',))),)
+        >>> Pronounced("瓜", (("g", "u", "a"),)).acoustic()[0]
+        (('g', ('g',)), ('u', ('w',)), ('a', ('aa',)))
         """
-        heard = load_reduction("pinyin", "arpabet")
-        return tuple(
-            tuple((phone, tuple(piece.label for piece in heard.of(phone)[0])) for phone in way)
-            for way in self.ways
-        )
+        from lipwright.schedule.align.acoustics import ways_by_table  # needed to align alone
+
+        ways = ways_by_table([_with_glides(way) for way in self.ways], "pinyin")
+        return tuple(tuple((phone.rstrip("-"), heard) for phone, heard in way) for way in ways)
 
 
 def pronounce(text: str) -> tuple[Pronounced, ...]:
@@ -92,6 +92,14 @@ def _ways(word: Word, known: dict[str, tuple[Phones, ...]]) -> tuple[Phones, ...
 
 def _joined(way: Iterable[Syllable]) -> Phones:
     return tuple(phone for syllable in way for phone in sounds(syllable))
+
+
+def _with_glides(way: Phones) -> Phones:
+    """Mark glides as the table of sounds does: ``u-`` before another vowel."""
+    return tuple(
+        f"{phone}-" if is_glide(phone, following) else phone
+        for phone, following in zip(way, (*way[1:], ""), strict=True)
+    )
 
 
 def _english(words: Iterable[str]) -> dict[str, tuple[Phones, ...]]:

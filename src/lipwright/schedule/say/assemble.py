@@ -12,7 +12,7 @@ import numpy as np
 from lipwright.phones import SILENCE, PhoneTrack
 from lipwright.schedule.say import espeak, festival
 from lipwright.schedule.say.closures import begin_stops_at_closure
-from lipwright.schedule.say.spelling import plain_label
+from lipwright.schedule.say.spelling import plain_labels
 from lipwright.schedule.say.words import TimedPhone, Utterance, nothing_to_say, time_words
 from lipwright.sound import Sound
 from lipwright.speech import Speech
@@ -135,11 +135,8 @@ def _plain(spoken: espeak.Spoken) -> tuple[list[str], list[int], list[int]]:
     """Return labels, their edges (one more) and text positions: no gap, no empty phone."""
     labels, starts, positions = [SILENCE], [0], [0]
     ends = [start for _, start, _ in spoken.phones[1:]] + [len(spoken.samples)]
-    language = spoken.language
-    for (label, start, position), end in zip(spoken.phones, ends, strict=True):
-        if label.startswith("("):  # "(en)": here the voice goes on in another language
-            language = label.strip("()")
-        plain = plain_label(label, language)
+    spelled = plain_labels([label for label, _, _ in spoken.phones], spoken.language)
+    for plain, (_, start, position), end in zip(spelled, spoken.phones, ends, strict=True):
         pause = plain == SILENCE
         joint = pause and end - start < _SHORTEST_PAUSE * spoken.rate
         if end == start > starts[-1] and _is_stop(plain):

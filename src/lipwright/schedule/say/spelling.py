@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import re
 import unicodedata
+from collections.abc import Iterable
 from functools import cache
 
 import msgspec
@@ -67,6 +68,24 @@ def plain_label(label: str, language: str = "") -> str:
     if plain.startswith("(") or not any(unicodedata.category(c) in ("Ll", "Lo") for c in plain):
         return ""
     return plain[:-2] + "ŋ" if len(plain) > 2 and plain.endswith("nɡ") else plain
+
+
+def plain_labels(labels: Iterable[str], language: str = "") -> list[str]:
+    """Return labels that espeak-ng wrote one after another, each as :func:`plain_label`.
+
+    A foreign word is spelled as its own language is: ``(en)`` before it says so.
+
+    Examples
+    --------
+    >>> plain_labels(["r", "ˈoː", "t", "(en)", "ɹ", "(de)"], "de")
+    ['ʁ', 'oː', 't', '', 'ɹ', '']
+    """
+    plain: list[str] = []
+    for label in labels:
+        if label.startswith("("):
+            language = label.strip("()")
+        plain.append(plain_label(label, language))
+    return plain
 
 
 @cache
