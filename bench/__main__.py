@@ -23,6 +23,10 @@ MEASURES = (
     "doubt",
     "quality",
     "held_out",
+    "motion",
+    "motion_search",
+    "motion_joining",
+    "motion_capture",
 )
 
 

@@ -20,7 +20,7 @@ LAYERS = [
     ("performance",),
     ("schedule", "engines", "character", "export", "evaluate"),
     ("casting",),
-    ("pipeline", "corpus"),
+    ("pipeline", "corpus", "motion_takes"),
     ("cli",),
 ]
 APART = ("schedule", "engines", "character", "export", "evaluate")

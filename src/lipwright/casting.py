@@ -7,7 +7,9 @@ change of it is laid over it. Engines are kept, and made anew when a file of the
 from __future__ import annotations
 
 import os
+from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -17,7 +19,9 @@ from lipwright.files import Kept, Version, file_version
 if TYPE_CHECKING:
     from lipwright.character import CharacterFile
     from lipwright.engines.bigram import BigramEngine, BigramSet
+    from lipwright.engines.motion.engine import MotionEngine
 
+ENGINES = ("bigram", "motion")
 DEFAULT_SET = "english"
 SETS_BY_LANGUAGE = {"cmn": "mandarin", "zh": "mandarin"}
 """Languages that have a set of their own, by their first part."""
@@ -126,3 +130,44 @@ def _loaded_set(name: str, file: CharacterFile | None) -> BigramSet:
     for layer in file.layers if file else ():
         base = with_character(base, layer.name, layer.path, layer.overrides, layer.settings)
     return base
+
+
+def check_engine(engine: str, database: str | Path | None, of_bigrams: Sequence[object]) -> None:
+    """Refuse an engine that is unknown, lacks what it needs, or is given what it cannot use.
+
+    Raises
+    ------
+    InputError
+    """
+    if engine not in ENGINES:
+        raise InputError(f"no engine {engine!r}", expected=" or ".join(ENGINES))
+    if engine == "bigram" and database is not None:
+        raise InputError(
+            "a motion database, with the bigram engine", cure="choose the motion engine"
+        )
+    if engine != "motion":
+        return
+    if database is None:
+        raise InputError(
+            "no database for the motion engine",
+            cure="build one with 'lipwright motion build', and give it with --database",
+        )
+    if any(given is not None for given in of_bigrams):
+        raise InputError(
+            "a set, overrides, a reduction or edits, with the motion engine",
+            cure="leave them out: they are the bigram engine's",
+        )
+
+
+def motion_engine(database: str | Path, search: str = "several") -> MotionEngine:
+    """Return the engine for a motion database; made once, and anew when it is built anew."""
+    header = file_version(str(Path(database) / "database.json"))
+    return _motion_engine(str(database), search, header)
+
+
+@lru_cache(maxsize=4)
+def _motion_engine(database: str, search: str, version: object) -> MotionEngine:
+    from lipwright.engines.motion.database import open_database
+    from lipwright.engines.motion.engine import MotionEngine
+
+    return MotionEngine(open_database(database), search)

@@ -14,8 +14,8 @@ from functools import cache, lru_cache, partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from lipwright.casting import character_file, engine_for
-from lipwright.errors import CharacterError, InputError, SoundError
+from lipwright.casting import character_file, check_engine, engine_for, motion_engine
+from lipwright.errors import CharacterError, SoundError
 from lipwright.performance import Performance
 from lipwright.sound import Sound
 from lipwright.speech import Speech
@@ -164,6 +164,8 @@ def animate(
     character: str | Path = "head",
     mapping: str | Path | None = None,
     rate: float = 60.0,
+    database: str | Path | None = None,
+    search: str = "several",
     pictures: str | Path | None = None,
     without: Sequence[str] = (),
     fps: float | None = None,
@@ -177,7 +179,7 @@ def animate(
     speech : Speech
         From :func:`say`, :func:`align`, :func:`recognise` or :func:`from_labels`.
     engine : str
-        ``"bigram"``.
+        ``"bigram"``, or ``"motion"``, which needs a ``database``.
     bigram_set : str or path, optional
         A set that comes with Lipwright, or a file; else the character's, else English.
     preset : str
@@ -196,6 +198,11 @@ def animate(
         A mapping file that goes before the character's own and the one found.
     rate : float
         Frames per second.
+    database : path, optional
+        A motion database, from :func:`lipwright.motion_takes.build_motion`.
+    search : str
+        How the motion engine searches: ``"several"``, the mean of several paths, or one path:
+        ``"optimal"``, ``"greedy"``, ``"pq"``.
     pictures : str or path, optional
         The mouth shapes that formats of held shapes use for a character with a model;
         ``"rhubarb"`` where none are given.
@@ -215,11 +222,15 @@ def animate(
     from lipwright.character.pictures import hold as hold_pictures
     from lipwright.engines.bigram import read_edits
 
-    if engine != "bigram":
-        raise InputError(f"no engine {engine!r}", expected="bigram")
-    made = engine_for(bigram_set, preset, overrides, reduction, character, speech.language)
+    check_engine(engine, database, (bigram_set, overrides, reduction, edits))
     shapes = choose(character, pictures, mapping, without=without, fps=fps, on=on, hold=hold)
-    animation = made.animate(speech, rate, read_edits(edits) if edits else ())
+    own = ""
+    if database is not None:
+        animation = motion_engine(database, search).animate(speech, rate)
+    else:
+        made = engine_for(bigram_set, preset, overrides, reduction, character, speech.language)
+        own = made.of.name
+        animation = made.animate(speech, rate, read_edits(edits) if edits else ())
     end = max(speech.duration, speech.phones.tier.end)
     cues = cache(partial(hold_pictures, animation, shapes, end))
     if is_pictures(character):
@@ -227,7 +238,7 @@ def animate(
         return Performance(animation, speech, shapes.no_model, cues, flat=True)
     actor = keep_character(character, mapping)
     strange = ""
-    if not actor.fits or actor.bigram_set != made.of.name:
+    if not actor.fits or actor.bigram_set != own:
         strange = _check(actor, animation.controls)
     report = {**animation.report, "character": actor.report()}
     named = replace(animation, report=report)

@@ -33,8 +33,17 @@ def outputs(help: str) -> Callable[[Command], Command]:
 
 animation = stack(
     click.option(
-        "--engine", type=click.Choice(["bigram"]), default="bigram", show_default=True,
+        "--engine", type=click.Choice(["bigram", "motion"]), default="bigram", show_default=True,
         help="What drives the mouth.",
+    ),
+    click.option(
+        "--database", type=click.Path(path_type=Path), metavar="DB",
+        help="The recorded motion that the motion engine searches, see 'motion build'.",
+    ),
+    click.option(
+        "--search", type=click.Choice(["several", "optimal", "greedy", "pq"]), default="several",
+        show_default=True,
+        help="How the motion engine searches: the mean of several paths, or one path.",
     ),
     click.option(
         "--set", "bigram_set", metavar="SET",

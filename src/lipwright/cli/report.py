@@ -46,6 +46,10 @@ def tell(performance: Performance, written: Sequence[str], *, as_json: bool) -> 
     stand_ins = animation.report.get("stand_ins", [])
     if stand_ins:
         note(f"the set lacks {', '.join(stand_ins)}: made from single phones")
+    lacking = animation.report.get("nearest_phones", {})
+    if lacking:
+        pairs = ", ".join(f"{phone} as {used}" for phone, used in lacking.items())
+        note(f"phones that the database lacks: {pairs}")
     bare = animation.report.get("without_curves", [])
     if bare:
         note(f"the set has no curve at all for {' '.join(bare)}: the mouth rests there")

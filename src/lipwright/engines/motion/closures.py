@@ -1,0 +1,258 @@
+"""Closures: p, b and m end closed, f and v end in contact (Cao et al. 2004, section 8).
+
+What closed means is learnt: in each recorded p, b and m the frame with the least opening;
+half of them are at most as open as the *level*. A closure that stays above it is pulled, at
+its own least opening, toward the recorded closed frame that is most like it, just as far as
+the level asks. The pull rises and falls as a raised cosine, as wide as natural speed needs:
+no channel moves faster than nearly all recorded motion does, or than it did before. What
+is closed already is not touched.
+
+All of it is done on channels as they were recorded, not on components: what components
+leave out is little motion, but it is what parts the lips or lets them meet.
+
+Opening is whatever the caller measures on a motion; for ARKit names it is known here.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lipwright.engines.motion.recorded import Ints, Recorded
+
+Floats = NDArray[np.float64]
+Opening = Callable[[Floats], NDArray[np.floating]]
+"""How far the lips are apart in each frame of (T, C): (T,), less is more closed."""
+
+KINDS = (("p", "b", "m"), ("f", "v"))
+EXAMPLES = 48  # closed frames that are kept of each kind
+UNITS = 4000  # of a kind that are looked at
+FRAMES = 40000  # whose speeds are
+WIDTHS = (0.09, 0.11, 0.14, 0.18, 0.22)
+"""Seconds from the middle of a pull to where it is nothing, from preferred to last."""
+HOLD = 0.02
+"""Seconds to either side that a pull lasts in full, at most a fifth of the phone."""
+EDGE = 0.15
+"""Share of a phone at either end in which its closure is not looked for."""
+QUICK = 99.9
+"""Percentile of recorded speeds that counts as the greatest natural one."""
+_TRIED = 17  # strengths of a pull that are tried at once, twice
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Closed:
+    """What closed means for one kind of phone.
+
+    Parameters
+    ----------
+    labels : tuple of str
+        The phones.
+    level : float
+        Opening that a closure must come down to.
+    frames : (E, C) float64
+        Recorded closed faces, each at most that open.
+    """
+
+    labels: tuple[str, ...]
+    level: float
+    frames: Floats
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Closing:
+    """All that closing needs of a database.
+
+    Parameters
+    ----------
+    kinds : tuple of Closed
+    speeds : (C,) float64
+        Greatest natural speed of each channel, per second.
+    rate : float
+        Frames per second at which the speeds were measured.
+    """
+
+    kinds: tuple[Closed, ...]
+    speeds: Floats
+    rate: float
+
+
+def opening_of(channels: Sequence[str]) -> Opening | None:
+    """Return how ARKit shapes open the mouth; None where there is no ``jawOpen``.
+
+    The jaw parts the lips, ``mouthClose`` brings them together again, and each lip is drawn
+    away by its own shapes.
+
+    Examples
+    --------
+    >>> opening = opening_of(["jawOpen", "mouthClose"])
+    >>> round(float(opening(np.array([[0.5, 0.4]]))[0]), 9)
+    0.1
+    """
+    weights = {"jawopen": 1.0, "mouthclose": -1.0}
+    for lip in ("mouthlowerdown", "mouthupperup"):
+        weights |= {lip + side: 0.25 for side in ("left", "right")}
+    names = [name.casefold() for name in channels]
+    if "jawopen" not in names:
+        return None
+    row = np.array([weights.get(name, 0.0) for name in names])
+    return lambda motion: motion @ row
+
+
+def learn_closing(data: Recorded, opening: Opening) -> Closing:
+    """Learn from a database what closed is, and how fast a face is.
+
+    Parameters
+    ----------
+    data : Recorded
+    opening : callable
+        ``opening(motion (T, C)) -> (T,)``.
+    """
+    names = np.array([label.casefold() for label in data.labels])
+    kinds = []
+    for labels in KINDS:
+        wanted = np.isin(names, labels)
+        units = np.flatnonzero(wanted[np.asarray(data.label)])
+        if len(units):
+            kinds.append(_learn_kind(data, labels, evenly(units, UNITS), opening))
+    return Closing(tuple(kinds), _speeds(data), data.rate)
+
+
+def close(
+    motion: Floats,
+    rate: float,
+    phones: Sequence[tuple[str, float, float]],
+    closing: Closing,
+    opening: Opening,
+) -> int:
+    """Close the mouth in every phone that must be closed.
+
+    Parameters
+    ----------
+    motion : (T, C) float64
+        Channels, changed in place; frame k is at ``(k + 0.5) / rate``.
+    rate : float
+        Frames per second.
+    phones : sequence of (label, start, end)
+        Seconds, on the clock of the motion.
+    closing : Closing
+    opening : callable
+        What the closing was learnt with.
+
+    Returns
+    -------
+    int
+        How many phones had to be pulled.
+    """
+    kinds = {label: kind for kind in closing.kinds for label in kind.labels}
+    pulled = 0
+    for label, start, end in phones:
+        kind = kinds.get(label.casefold())
+        if kind is None:
+            continue
+        near = _inside(start, end, rate, len(motion))
+        openings = opening(motion[near])
+        best = int(openings.argmin())
+        if openings[best] > kind.level:
+            hold = min(HOLD, 0.2 * (end - start))
+            _pull(motion, rate, near.start + best, kind, closing, opening, hold)
+            pulled += 1
+    return pulled
+
+
+def evenly(items: Ints, count: int) -> Ints:
+    """Return at most ``count`` of the items, evenly spread over them."""
+    if len(items) <= count:
+        return items
+    return items[np.linspace(0, len(items) - 1, count).astype(np.int64)]
+
+
+def _learn_kind(data: Recorded, labels: tuple[str, ...], units: Ints, opening: Opening) -> Closed:
+    first, count = data.first[units], data.last[units] - data.first[units]
+    starts = np.cumsum(count) - count
+    rows = np.repeat(first - starts, count) + np.arange(count.sum())
+    frames = np.asarray(data.values[rows], np.float64)
+    openings = opening(frames)
+    least = np.minimum.reduceat(openings, starts)
+    level = float(np.median(least))
+    # The first frame of each unit that is its least; of those, the ones that are closed.
+    found = np.flatnonzero(openings == np.repeat(least, count))
+    _, lone = np.unique(np.repeat(np.arange(len(units)), count)[found], return_index=True)
+    closed = found[lone][least <= level]
+    # Spread over the shapes that closed faces have: along their first component.
+    spread = closed[np.argsort(np.asarray(data.frames[rows[closed], 0]), kind="stable")]
+    return Closed(labels, level, frames[evenly(spread, EXAMPLES)])
+
+
+def _speeds(data: Recorded) -> Floats:
+    inside = np.ones(len(data.values) - 1, np.bool_)
+    inside[data.take_first[1:-1] - 1] = False  # from one take to the next is no motion
+    rows = evenly(np.flatnonzero(inside), FRAMES)
+    if not len(rows):
+        return np.full(data.values.shape[1], np.inf)
+    moved = np.abs(data.values[rows + 1] - data.values[rows]) * data.rate
+    return np.asarray(np.percentile(moved, QUICK, axis=0), np.float64)
+
+
+def _inside(start: float, end: float, rate: float, count: int) -> slice:
+    """Frames within a phone, without its edges where that leaves any; at least the nearest."""
+    for edge in (EDGE * (end - start), 0.0):
+        low = int(np.ceil((start + edge) * rate - 0.5 - 1e-9))
+        high = int(np.ceil((end - edge) * rate - 0.5 - 1e-9))
+        low, high = max(low, 0), min(high, count)
+        if low < high:
+            return slice(low, high)
+    nearest = min(max(round(0.5 * (start + end) * rate - 0.5), 0), count - 1)
+    return slice(nearest, nearest + 1)
+
+
+def _pull(
+    motion: Floats,
+    rate: float,
+    middle: int,
+    kind: Closed,
+    closing: Closing,
+    opening: Opening,
+    hold: float,
+) -> None:
+    """Pull the frames around ``middle`` until that one is closed."""
+    open_face = motion[middle].copy()
+    apart = ((kind.frames - open_face) ** 2).sum(axis=1)
+    pull = kind.frames[apart.argmin()] - open_face
+    pull *= _strength(open_face, pull, kind.level, opening)
+    lag = max(1, round(rate / closing.rate))
+    for width in WIDTHS:
+        reach = int(width * rate)
+        low, high = max(middle - reach, 0), min(middle + reach + 1, len(motion))
+        away = (np.abs(np.arange(low, high) - middle) / rate - hold) / (width - hold)
+        share = 0.5 + 0.5 * np.cos(np.pi * np.clip(away, 0.0, 1.0))
+        around = slice(max(low - lag, 0), min(high + lag, len(motion)))
+        before = motion[around]
+        after = before.copy()
+        after[low - around.start : high - around.start] += share[:, None] * pull
+        if _natural(before, after, lag, rate, closing.speeds):
+            break
+    motion[around] = after
+
+
+def _strength(face: Floats, pull: Floats, level: float, opening: Opening) -> float:
+    """Return the least share of a pull, 0..1, that brings the opening down to the level."""
+    low, high = 0.0, 1.0
+    for _ in range(2):
+        shares = np.linspace(low, high, _TRIED)
+        openings = opening(face + shares[:, None] * pull)
+        enough = np.flatnonzero(openings <= level)
+        if not len(enough):
+            return high
+        low, high = float(shares[max(enough[0] - 1, 0)]), float(shares[enough[0]])
+    return high
+
+
+def _natural(before: Floats, after: Floats, lag: int, rate: float, speeds: Floats) -> bool:
+    """Whether nothing moves faster than is natural, or than it did before."""
+    if len(after) <= lag:
+        return True
+    was, now = (np.abs(x[lag:] - x[:-lag]).max(axis=0) * (rate / lag) for x in (before, after))
+    return bool((now <= np.maximum(was, speeds) * (1 + 1e-9)).all())

@@ -1,0 +1,285 @@
+"""From a path of units to a motion (Cao et al. 2004, section 6.3).
+
+Each unit is warped to its phone's time, units that were not neighbours are blended, a
+learnt low-pass takes the rest of the seams away, all of it on components. Then closures
+close, on channels. Which units are taken is the search's work.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lipwright.engines.motion import warping
+from lipwright.engines.motion.closures import Closed, Closing, Opening, close, learn_closing
+from lipwright.engines.motion.lowpass import cut_offs, low_pass
+from lipwright.engines.motion.rasta_plp import Features, between
+from lipwright.engines.motion.recorded import (
+    Floats,
+    Ints,
+    Recorded,
+    at,
+    motion_of,
+    take_bounds,
+    takes,
+)
+from lipwright.engines.motion.splicing import (
+    Course,
+    Pairs,
+    PairTable,
+    Splice,
+    blend,
+    find_splices,
+)
+from lipwright.errors import InputError
+from lipwright.phones import SILENCE
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Learnt:
+    """What the smoothing and closing of a database's results is learnt from it.
+
+    Parameters
+    ----------
+    cut_offs : (K,) float64
+        Hz, of each component's low-pass.
+    closing : Closing or None
+        None where nobody knows what opens the mouth.
+    """
+
+    cut_offs: Floats
+    closing: Closing | None
+
+    def document(self) -> dict[str, Any]:
+        """Return it as plain lists and numbers, for a file."""
+        closing = self.closing
+        return {
+            "cut_offs": self.cut_offs.tolist(),
+            "closing": closing
+            and {
+                "speeds": closing.speeds.tolist(),
+                "rate": closing.rate,
+                "kinds": [
+                    {"labels": kind.labels, "level": kind.level, "frames": kind.frames.tolist()}
+                    for kind in closing.kinds
+                ],
+            },
+        }
+
+    @classmethod
+    def of(cls, document: dict[str, Any]) -> Learnt:
+        """Return what :meth:`document` wrote."""
+        found = document["closing"]
+        closing = found and Closing(
+            tuple(
+                Closed(tuple(kind["labels"]), kind["level"], np.array(kind["frames"]))
+                for kind in found["kinds"]
+            ),
+            np.array(found["speeds"]),
+            found["rate"],
+        )
+        return cls(np.array(document["cut_offs"]), closing)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Joined:
+    """A motion, and where each frame of it comes from.
+
+    Parameters
+    ----------
+    motion : (T, C) float32
+        Channels; frame k is at ``start + (k + 0.5) / rate``.
+    components : (T, K) float64
+        The same before closures are closed.
+    start, rate : float
+        Seconds; frames per second.
+    unit : (T,) int64
+        The unit that each frame follows.
+    source : (T,) float64
+        The frame of the database, between two of them where the time is warped.
+    splices : tuple of Splice
+        The jumps.
+    pulled : int
+        How many phones had to be closed.
+    """
+
+    motion: NDArray[np.float32]
+    components: Floats
+    start: float
+    rate: float
+    unit: Ints
+    source: Floats
+    splices: tuple[Splice, ...]
+    pulled: int
+
+
+def learn(data: Recorded, opening: Opening | None = None) -> Learnt:
+    """Learn from a database what :func:`join` needs besides its arrays.
+
+    Parameters
+    ----------
+    data : Recorded
+    opening : callable, optional
+        ``opening(motion (T, C)) -> (T,)``; without it closures are left as they come.
+    """
+    closing = None if opening is None else learn_closing(data, opening)
+    return Learnt(cut_offs(takes(data), data.rate), closing)
+
+
+def join(
+    data: Recorded,
+    units: Sequence[int] | NDArray[np.integer],
+    spans: NDArray[np.floating],
+    rate: float,
+    *,
+    learnt: Learnt | None = None,
+    features: Features | None = None,
+    opening: Opening | None = None,
+    phones: Sequence[str] | None = None,
+    pairs: Pairs | None = None,
+) -> Joined:
+    """Turn a path of units into a motion.
+
+    Parameters
+    ----------
+    data : Recorded
+        The database.
+    units : (N,) or (M, N) int
+        A unit for each phone; of M paths, the mean of their motions is taken, which has
+        less of one recording's chance in it, and what is told of units is the first's.
+    spans : (N, 2) float64
+        Seconds of each phone, in order; a gap belongs to the phone before it.
+    rate : float
+        Frames per second of the result.
+    learnt : Learnt, optional
+        Of :func:`learn`; without it nothing is smoothed or closed.
+    features : Features, optional
+        Of the wanted sound; without it units are warped evenly.
+    opening : callable, optional
+        What ``learnt`` was learnt with; without it nothing is closed.
+    phones : (N,) str, optional
+        What is spoken, where it is not the units' own labels: after stand-ins and clusters.
+        Also tells which phones must be closed.
+    pairs : callable, optional
+        Finds connected pairs; a :class:`PairTable` is made where it is left out.
+
+    Raises
+    ------
+    InputError
+        If there are no phones, not one span per unit, or spans out of order.
+    """
+    paths = np.atleast_2d(np.asarray(units, np.int64))
+    held = _spans(paths, spans)
+    start, end = float(held[0, 0]), float(held[-1, 1])
+    count = max(1, round((end - start) * rate))
+    times: Floats = start + (np.arange(count, dtype=np.float64) + 0.5) / rate
+    found = pairs or PairTable(data)
+    courses = [_course(data, path, held, phones, features) for path in paths]
+    drawn = [_drawn(data, course, times, found) for course in courses]
+    frames: Floats = np.mean([one.frames for one in drawn], axis=0)
+    if learnt is not None:
+        frames = low_pass(frames, rate, learnt.cut_offs)
+    motion, pulled = motion_of(data, frames), 0
+    if learnt is not None and learnt.closing is not None and opening is not None:
+        timed = zip(courses[0].spoken, *(held - start).T.tolist(), strict=True)
+        pulled = close(motion, rate, list(timed), learnt.closing, opening)
+    return Joined(
+        motion=motion.astype(np.float32),
+        components=frames,
+        start=start,
+        rate=rate,
+        unit=drawn[0].unit,
+        source=drawn[0].source,
+        splices=drawn[0].splices,
+        pulled=pulled,
+    )
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Drawn:
+    """The motion of one path, and where it comes from."""
+
+    frames: Floats
+    unit: Ints
+    source: Floats
+    splices: tuple[Splice, ...]
+
+
+def _drawn(data: Recorded, course: Course, times: Floats, pairs: Pairs) -> _Drawn:
+    phone, source = _sources(data, course, times)
+    unit = course.units[phone]
+    own = at(data, source, *take_bounds(data, unit))
+    splices = find_splices(data, course, pairs)
+    return _Drawn(blend(data, course, splices, times, own), unit, source, tuple(splices))
+
+
+def _spans(paths: Ints, spans: NDArray[np.floating]) -> Floats:
+    held = np.array(spans, np.float64)
+    count = paths.shape[1]
+    if not count or held.shape != (count, 2):
+        raise InputError(
+            f"{count} units and spans of shape {held.shape}",
+            expected="one unit or more, each with its start and end",
+        )
+    held[:-1, 1] = held[1:, 0]
+    if not (np.isfinite(held).all() and (held[:, 1] > held[:, 0]).all()):
+        raise InputError("phones out of order, or without length", expected="spans that follow")
+    return held
+
+
+def _course(
+    data: Recorded,
+    units: Ints,
+    spans: Floats,
+    phones: Sequence[str] | None,
+    features: Features | None,
+) -> Course:
+    own = [data.labels[label] for label in data.label[units]]
+    spoken = tuple(own if phones is None else phones)
+    return Course(units, spans, spoken, _warps(data, units, spans, spoken, features))
+
+
+def _warps(
+    data: Recorded,
+    units: Ints,
+    spans: Floats,
+    spoken: Sequence[str],
+    features: Features | None,
+) -> Floats:
+    """Warp of each phone, (N, KNOTS); a silence has nothing to go by and is even."""
+    found = warping.linear(len(units))
+    speech = np.array([label != SILENCE for label in spoken])
+    if features is None or not speech.any():
+        return found
+    heard = (spans[speech] - features.start) * features.rate
+    sides = []
+    for values, ends, count in (
+        (features.values, heard, warping.KNOTS),
+        (data.features, data.spans[units[speech]], 2 * warping.KNOTS - 1),
+    ):
+        share = np.linspace(0.0, 1.0, count)
+        positions = ends[:, :1] + share * np.diff(ends, axis=1) - 0.5
+        found_at = between(values, positions.ravel()) / data.sound_scale
+        sides.append(found_at.reshape(*positions.shape, -1))
+    found[speech] = warping.warps(*sides)
+    return found
+
+
+def _sources(data: Recorded, course: Course, times: Floats) -> tuple[Ints, Floats]:
+    """Phone of each instant, and the frame of the database that answers it."""
+    phone = np.clip(
+        np.searchsorted(course.spans[:, 0], times, "right") - 1, 0, len(course.units) - 1
+    )
+    start, end = course.spans[phone].T
+    warps = course.warps
+    place = (times - start) / (end - start) * (warps.shape[1] - 1)
+    knot = np.clip(place.astype(np.int64), 0, warps.shape[1] - 2)
+    rise = warps[phone, knot + 1] - warps[phone, knot]
+    share = warps[phone, knot] + (place - knot) * rise
+    first, last = data.spans[course.units[phone]].T
+    # Where a take is followed frame by frame, rounding must not come between.
+    return phone, np.round(first + share * (last - first) - 0.5, 9)
