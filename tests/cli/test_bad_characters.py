@@ -123,7 +123,7 @@ def test_the_mouth_is_drawn_and_the_gains_are_told(
     drawn = picture.read_text("utf-8")
     for title in ("rest", "open 0.5", "PBM 1", "W 1"):
         assert f">{title}</text>" in drawn
-    assert "gap 22.0% of the width" in drawn
+    assert "gap 23.0% of the width" in drawn
     assert drawn.count('fill="#e8590c"') == 4 * 19 + 1
     first = picture.read_bytes()
     assert main(arguments) == 0
