@@ -23,6 +23,7 @@ MEASURES = (
     "doubt",
     "quality",
     "held_out",
+    "fitting",
     "motion",
     "motion_search",
     "motion_joining",

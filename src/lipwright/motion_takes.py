@@ -183,51 +183,27 @@ def _one(take: TakeFiles, path: Path, language: str) -> str:
     return take.name
 
 
-def _prepare(take: TakeFiles, language: str) -> tuple[Prepared, list[str]]:
+def _prepare(files: TakeFiles, language: str) -> tuple[Prepared, list[str]]:
     """Read a take, put its words in time, listen to its sound."""
-    from lipwright import pipeline
-    from lipwright.engines.motion.capture import check_length, read_motion
     from lipwright.engines.motion.preparing import prepare
     from lipwright.engines.motion.take import Take
-    from lipwright.sound_files import read_sound
+    from lipwright.recorded import read_take
 
-    motion = read_motion(take.motion)
-    notes = list(motion.notes)
-    if motion.kind == "markers":
-        raise InputError(
-            "markers, which drive no character yet",
-            where=str(take.motion),
-            expected="blendshapes (.csv)",
-        )
-    sound = read_sound(take.sound) if take.sound is not None else None
-    if sound is not None:
-        check_length(motion, sound.duration)
-    if take.labels is not None:
-        speech = pipeline.from_labels(take.labels, sound)
-    elif sound is None or not take.text:
-        lacks = "sound" if sound is None else "words"
-        raise InputError(
-            f"has no {lacks}",
-            where=str(take.motion),
-            expected="sound and words, or labels, beside it by name",
-        )
-    else:
-        speech = pipeline.align(sound, take.text, language=language)
-    notes += speech.notes
+    take = read_take(files, language)
     ready = prepare(
         Take(
             take.name,
-            motion.channels,
-            motion.values,
-            motion.rate,
-            motion.start,
-            _full_labels(speech.phones),
-            speech.words,
-            sound,
+            take.channels,
+            np.asarray(take.values, np.float32),
+            take.rate,
+            take.start,
+            _full_labels(take.phones),
+            take.words,
+            take.sound,
         ),
         features=_features,
     )
-    return ready, [f"{take.name}: {note}" for note in notes]
+    return ready, [f"{take.name}: {note}" for note in take.notes]
 
 
 def _features(take: Take) -> NDArray[np.float32]:

@@ -25,6 +25,8 @@ if TYPE_CHECKING:
     from lipwright.character import Character
     from lipwright.character.head import Landmarks
     from lipwright.character.mesh import Part
+    from lipwright.engines.bigram import BigramSet
+    from lipwright.engines.bigram.fit import FitReport
     from lipwright.evaluate import MotionReport, Recording
 
 Progress = Callable[[float], None]
@@ -348,6 +350,29 @@ def evaluate_motion(
         opening, breadth = Curve(made.times, mouth.opening), Curve(made.times, mouth.breadth)
         found.append(Pair(opening, breadth, recorded, phones.normalised(), name))
     return compare(found)
+
+
+def fit_set(
+    folder: str | Path,
+    *,
+    text: str | Path | None = None,
+    base: str | Path = "english",
+    name: str = "fitted",
+    as_scored: bool = False,
+    progress: Progress | None = None,
+) -> tuple[BigramSet, FitReport]:
+    """Return a bigram set fitted to a folder of recorded faces, and what it rests on.
+
+    See :func:`lipwright.recorded.read_takes` for the folder and ``text``, and
+    :func:`lipwright.recorded.fit_set` for the rest. Reading counts as half of the progress.
+    """
+    from lipwright import recorded
+
+    def half(first: float) -> Progress | None:
+        return (lambda share: progress(first + 0.5 * share)) if progress else None
+
+    takes = recorded.read_takes(folder, text=text, progress=half(0.0))
+    return recorded.fit_set(takes, base=base, name=name, as_scored=as_scored, progress=half(0.5))
 
 
 @lru_cache(maxsize=1)

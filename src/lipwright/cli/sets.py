@@ -11,6 +11,7 @@ import click
 
 from lipwright.cli import options
 from lipwright.cli.coverage import coverage
+from lipwright.cli.fit import fit
 from lipwright.cli.report import note
 from lipwright.errors import InputError
 
@@ -31,6 +32,7 @@ def bigram_set() -> None:
 
 
 bigram_set.add_command(coverage)
+bigram_set.add_command(fit)
 
 
 @bigram_set.command()

@@ -1,0 +1,147 @@
+"""A face in one set of shapes, told in another: recorded ARKit scores as poses of a set.
+
+What the scores do to the lips of the built-in head, poses are asked to do: non-negative
+least squares on the displacements along the line where they meet, every frame at once. The map from
+scores to the poses' normal equations is made once; what poses of the tongue do cannot be
+seen on the lips and is left out.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lipwright.character.head import build_head, landmarks
+from lipwright.character.mesh import Part
+from lipwright.errors import CharacterError
+
+Floats = NDArray[np.float64]
+
+SEEN = 1e-3
+"""A shape that moves nothing there by as much is not seen, metres."""
+FIRM = 1e-4
+"""Keeps poses that look alike apart: a share of the poses' mean square."""
+CLOSE = 1e-6
+SWEEPS = 5000
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Unmixing:
+    """The linear map from shapes to poses.
+
+    Parameters
+    ----------
+    channels : tuple of str
+        Shapes that the head knows and that move the lips; their order is that of the columns.
+    poses : tuple of str
+        Poses that can be seen on the lips.
+    alike : (P, P) float64
+        Products of the poses' displacements, kept apart a little.
+    products : (P, C) float64
+        Of the poses' and the channels' displacements.
+    """
+
+    channels: tuple[str, ...]
+    poses: tuple[str, ...]
+    alike: Floats
+    products: Floats
+
+    def weights(self, values: NDArray[np.floating]) -> Floats:
+        """Return the weights of the poses.
+
+        Parameters
+        ----------
+        values : (T, C) float
+            Of the channels; differences from a face at rest may be below 0.
+
+        Returns
+        -------
+        (T, P) float64
+            In 0..1.
+        """
+        return nonnegative(self.alike, np.asarray(values, np.float64) @ self.products.T)
+
+
+def unmixing(channels: Sequence[str], poses: Sequence[str]) -> Unmixing:
+    """Return the map from recorded shapes to poses, on the built-in head.
+
+    Parameters
+    ----------
+    channels : sequence of str
+        ARKit's names; others are left out.
+    poses : sequence of str
+
+    Raises
+    ------
+    CharacterError
+        If no channel, or no pose, moves the lips of the head.
+    """
+    skin, line = _skin()
+    known, shown = _seen(skin, line, channels), _seen(skin, line, poses)
+    for what, found, asked, such in (
+        ("channels", known, channels, "jawOpen and mouthPucker"),
+        ("poses", shown, poses, "open and W"),
+    ):
+        if not found:
+            raise CharacterError(
+                f"none of the {what} ({', '.join(list(asked)[:6])}) moves the head's lips",
+                expected=f"names such as {such}",
+            )
+    here, there = _moves(skin, line, shown), _moves(skin, line, known)
+    scale = float((here**2).sum(axis=1).mean())
+    alike = here @ here.T / scale + FIRM * np.eye(len(shown))
+    return Unmixing(known, shown, alike, here @ there.T / scale)
+
+
+def nonnegative(squares: Floats, products: Floats) -> Floats:
+    """Minimise ``x' A x / 2 - b' x`` with x in 0..1, for many b at once.
+
+    Cyclic coordinate descent, which finds the minimum of any positive definite A.
+
+    Parameters
+    ----------
+    squares : (P, P) float64
+        A.
+    products : (T, P) float64
+        A row for each b.
+
+    Returns
+    -------
+    (T, P) float64
+    """
+    found = np.zeros_like(products)
+    for _ in range(SWEEPS):
+        moved = 0.0
+        for pose in range(len(squares)):
+            column = found[:, pose]
+            rest = products[:, pose] - found @ squares[:, pose]
+            better = np.clip(column + rest / squares[pose, pose], 0.0, 1.0)
+            moved = max(moved, float(np.abs(better - column).max(initial=0.0)))
+            found[:, pose] = better
+        if moved < CLOSE:
+            break
+    return found
+
+
+@lru_cache(maxsize=1)
+def _skin() -> tuple[Part, NDArray[np.intp]]:
+    """The head's skin, and the vertices where its lips meet."""
+    marks = landmarks()
+    skin = next(part for part in build_head() if part.name == "skin")
+    return skin, np.unique((*marks.upper_loop, *marks.lower_loop)).astype(np.intp)
+
+
+def _seen(skin: Part, line: NDArray[np.intp], names: Sequence[str]) -> tuple[str, ...]:
+    return tuple(
+        name
+        for name in dict.fromkeys(names)
+        if name in skin.morphs and np.abs(skin.morphs[name][line]).max() > SEEN
+    )
+
+
+def _moves(skin: Part, vertices: NDArray[np.intp], names: Sequence[str]) -> Floats:
+    return np.stack([skin.morphs[name][vertices].ravel() for name in names]).astype(np.float64)
