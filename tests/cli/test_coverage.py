@@ -190,3 +190,12 @@ def test_interrupting_a_long_count_leaves_nothing(tmp_path: Path) -> None:
     assert process.returncode == 130
     assert errors.strip() == "lipwright: interrupted; nothing was left half-written"
     assert sorted(path.name for path in tmp_path.iterdir()) == ["long.txt"]
+
+
+def test_a_text_that_names_a_file_is_that_file(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "a corpus.txt"
+    path.write_text("A map for a boy.", "utf-8")
+    assert facts(capsys, "--text", path) == facts(capsys, "--text-file", path)
+    assert facts(capsys, "--text", "A map for a boy.")["needed"]["bmp-oy"] == 1

@@ -23,7 +23,10 @@ STATES = {"drawn": "drawn", "stand-in": "single curves", "no curve": "no curve a
 
 
 _corpus = options.stack(
-    click.option("--text", metavar="WORDS", help="Count the pairs that this text needs."),
+    click.option(
+        "--text", metavar="WORDS",
+        help="Count the pairs that this text needs; a name of a file means what is in it.",
+    ),
     click.option(
         "--text-file", "text_files", type=click.Path(path_type=Path), metavar="FILE",
         multiple=True, help="The same of a file of any size; - is standard input. May be repeated.",
@@ -97,6 +100,9 @@ def coverage(
     from lipwright.cli.progress import progress
     from lipwright.engines.bigram.coverage_picture import check_picture, write_picture
 
+    if text is not None and _is_file(text):
+        text_files = (Path(text), *text_files)
+        text = None
     if name and named and name != named:
         raise click.UsageError(f"two sets, {name!r} and {named!r}: give one")
     given_set = named or name
@@ -132,6 +138,13 @@ def coverage(
     if picture is not None:
         click.echo(f"  {picture}  (picture)")
     _tell(found)
+
+
+def _is_file(text: str) -> bool:
+    try:
+        return Path(text).is_file()
+    except (OSError, ValueError):  # longer than names may be, or with a zero byte
+        return False
 
 
 def _title(name: str, corpus: Corpus | None, found: Coverage) -> str:
