@@ -14,15 +14,12 @@ from lipwright.character.character import (
     set_of,
 )
 from lipwright.character.character_file import CharacterFile
-from lipwright.character.inspect import describe_character, inspect_character
 
 __all__ = [
     "BUILT_IN",
     "Character",
     "CharacterFile",
-    "describe_character",
     "file_of",
-    "inspect_character",
     "keep_character",
     "load_character",
     "set_of",

@@ -14,23 +14,25 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cache
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from lipwright.animation import Animation
 from lipwright.character.between import with_betweens
-from lipwright.character.calibration import Calibration, calibrate
 from lipwright.character.character_file import OWN_PLACES, CharacterFile, Versions
 from lipwright.character.character_reading import is_character_file, read_character_file
-from lipwright.character.fitting import Fitting, fit
 from lipwright.character.mapping import JointChannel, Mapping, merged, read_mapping
-from lipwright.character.rig import Rig, read_rig
 from lipwright.errors import CharacterError, InputError, did_you_mean
 from lipwright.files import Kept, file_version, write_atomically
-from lipwright.gltf import Gltf, read_gltf
 from lipwright.performance import RiggedModel
 from lipwright.speech import Speech
+
+if TYPE_CHECKING:
+    from lipwright.character.calibration import Calibration
+    from lipwright.character.fitting import Fitting
+    from lipwright.character.rig import Rig
+    from lipwright.gltf import Gltf
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -104,6 +106,8 @@ class Character:
 
     def read_rig(self) -> Rig:
         """Return what the model has that can move a mouth."""
+        from lipwright.character.rig import read_rig
+
         if not self._rig:
             self._rig.append(read_rig(self.model()))
         return self._rig[0]
@@ -117,12 +121,21 @@ class Character:
         return self._fitted()[1]
 
     def _fitted(self) -> tuple[Fitting, Calibration]:
+        from lipwright.character.calibration import Calibration, calibrate
+
         if not self._found:
-            rig = self.read_rig()
-            found = fit(rig, self.mapping, self.mapping_name)
-            made = calibrate(rig, found) if self.calibrated else (found, _MADE_TO_MEASURE)
-            self._found.append(made)
+            found = self._plain()
+            if self.calibrated:
+                self._found.append(calibrate(self.read_rig(), found))
+            else:
+                self._found.append((found, Calibration(reason="it is made to measure")))
         return self._found[0]
+
+    def _plain(self) -> Fitting:
+        """Return how each control is made, before calibration."""
+        from lipwright.character.fitting import fit  # Only who shows a model pays for it.
+
+        return fit(self.read_rig(), self.mapping, self.mapping_name)
 
     def check(self, controls: Sequence[str]) -> None:
         """Refuse early what :meth:`rig` would refuse.
@@ -133,12 +146,11 @@ class Character:
             If none of the controls moves anything on this model.
         """
         still = np.zeros((1, len(controls)), np.float32)
-        plain = fit(self.read_rig(), self.mapping, self.mapping_name)
-        self._drive(Animation(tuple(controls), still, 1.0), plain)
+        self._drive(Animation(tuple(controls), still, 1.0), self._plain())
 
     def strange_to(self, controls: Sequence[str]) -> str:
         """Return what to say of a set that was not drawn for this model; nothing if it was."""
-        fitting = fit(self.read_rig(), self.mapping, self.mapping_name)
+        fitting = self._plain()
         known = [one for one in controls if one in fitting.controls or fitting.weights_of(one)]
         if 2 * len(known) >= len(controls):
             return ""
@@ -178,6 +190,7 @@ class Character:
         CharacterError
             If no mouth was found on the mesh.
         """
+        from lipwright.character.calibration import calibrate
         from lipwright.character.picture import mouth_picture  # Few ever draw it.
 
         found = self.calibration()
@@ -188,9 +201,6 @@ class Character:
     def write_mapping(self, path: str | Path) -> None:
         """Write how each control is made, in the model's own names, as a file to edit."""
         write_atomically(path, self.fit().to_mapping(self.name).to_bytes())
-
-
-_MADE_TO_MEASURE = Calibration(reason="it is made to measure")
 
 
 def load_character(spec: str | Path, mapping: str | Path | None = None) -> Character:
@@ -235,6 +245,8 @@ def load_character(spec: str | Path, mapping: str | Path | None = None) -> Chara
         calibrated=source not in BUILT_IN,
     )
     if mappings or source not in BUILT_IN:
+        from lipwright.character.fitting import fit
+
         rig = character.read_rig()
         joints: dict[str, JointChannel] = {}
         for one, place in mappings:  # each by itself, so that an error names its own place
@@ -296,6 +308,8 @@ def _read_model(path: Path) -> tuple[str, Callable[[], Gltf], Versions]:
         )
     # Of a glTF in several files nobody says when a buffer changes: it is read every time.
     version = () if path.suffix.lower() == ".gltf" else _version(path)
+    from lipwright.gltf import read_gltf
+
     model = read_gltf(path)
     return path.stem, lambda: model, version or ((str(path), None),)
 

@@ -51,7 +51,8 @@ def inspect(
     pictures, such as rhubarb, it lists the mouth shapes and what each is for.
     """
     from lipwright.casting import engine_for, files_read
-    from lipwright.character import describe_character, inspect_character, load_character
+    from lipwright.character import load_character
+    from lipwright.character.inspect import describe_character, inspect_character
     from lipwright.character.pictures import is_pictures
     from lipwright.cli.speak import keep_inputs
     from lipwright.files import write_atomically

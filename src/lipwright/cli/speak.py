@@ -191,12 +191,14 @@ def read_text(path: Path) -> str:
 
 def _check(outputs: tuple[str, ...], how: dict[str, Any], *inputs: object) -> None:
     from lipwright.casting import files_read
-    from lipwright.character.pictures import is_pictures, load_pictures
     from lipwright.export import check_outputs, suffix_of
 
     check_outputs(outputs)
-    if ".glb" in map(suffix_of, outputs) and is_pictures(how["character"]):
-        load_pictures(how["character"]).no_model()
+    if ".glb" in map(suffix_of, outputs):
+        from lipwright.character.pictures import is_pictures, load_pictures
+
+        if is_pictures(how["character"]):
+            load_pictures(how["character"]).no_model()
     names = ("overrides", "reduction", "edits", "mapping", "pictures")
     read = files_read(how["character"], how["bigram_set"])
     keep_inputs(outputs, (*inputs, *read, *(how[name] for name in names)))
