@@ -1,17 +1,11 @@
 """The default English set: whole, readable, plausible, and true to its promises."""
 
-import itertools
-from collections.abc import Mapping
-
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from tools.english.__main__ import english
 
-from lipwright.curves import Keys
 from lipwright.engines.bigram import BigramEngine, load_set
-from lipwright.engines.bigram.set_file import DATA, set_bytes
 from lipwright.phones import PhoneTrack, load_phone_set
 from lipwright.speech import Speech
 from lipwright.timeline import Tier
@@ -21,40 +15,6 @@ SET = load_set("english")
 CLASSES = load_phone_set("common").labels
 CLOSING = {"bmp": "PBM", "f": "FV"}
 VOWELS = ("ah", "aa", "ao", "eh", "er", "ih", "ow", "aw", "oy", "ay")
-
-
-def test_all_483_pairs_are_drawn() -> None:
-    assert set(SET.bigrams) == set(itertools.product(CLASSES, CLASSES)) - {("sil", "sil")}
-    assert len(SET.bigrams) == 483
-
-
-def test_the_file_is_what_the_tool_makes() -> None:
-    assert (DATA / "english.json").read_bytes() == set_bytes(english())
-
-
-def test_curves_are_an_artists_few_keys() -> None:
-    counts = [len(keys) for bigram in SET.bigrams.values() for keys in bigram.curves.values()]
-    assert np.median(counts) <= 5
-    assert max(counts) <= 8
-
-
-def drawn(curves: Mapping[str, Keys]) -> tuple[object, ...]:
-    return tuple((pose, tuple(keys.pairs())) for pose, keys in sorted(curves.items()))
-
-
-def test_no_two_pairs_are_the_same() -> None:
-    # Of 21 classes no two look alike on the lips and the tongue: neither do their pairs.
-    assert len({drawn(bigram.curves) for bigram in SET.bigrams.values()}) == 483
-
-
-@pytest.mark.parametrize("label", CLASSES)
-def test_a_closure_is_drawn_where_phonetics_has_one_and_nowhere_else(label: str) -> None:
-    for other in CLASSES:
-        for pair in {(label, other), (other, label)} - {("sil", "sil")}:
-            for closing, pose in CLOSING.items():
-                keys = SET.bigrams[pair].curves.get(pose)
-                assert (keys is not None) == (closing in pair), (pair, pose)
-                assert keys is None or keys.values.max() == 1
 
 
 def level(label: str, pose: str) -> float:
