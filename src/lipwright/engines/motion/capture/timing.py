@@ -173,11 +173,12 @@ def even(clock: Clock, places: Sequence[str], where: str) -> Grid:
     if len(times) < FEWEST:
         raise FileFormatError(f"{len(times)} frames", where=where, expected=f"{FEWEST} or more")
     rate, positions = _rate(times, clock.rate)
-    if not SLOWEST <= rate <= FASTEST:
+    # Milliseconds taken for frames come to 1000 exactly, or a rounding beside it.
+    if not SLOWEST <= round(rate, 6) < FASTEST:
         raise FileFormatError(
             f"{rate:.4g} frames per second",
             where=where,
-            expected=f"{SLOWEST:g} to {FASTEST:g}",
+            expected=f"{SLOWEST:g} or more, and fewer than {FASTEST:g}",
             cure="check whether the times are seconds, milliseconds or frames",
         )
     notes += _missing(positions, times, rate, [places[row] for row in kept])
