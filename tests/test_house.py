@@ -20,7 +20,7 @@ LAYERS = [
     ("performance",),
     ("schedule", "engines", "character", "export", "evaluate"),
     ("casting",),
-    ("pipeline", "corpus", "motion_takes", "recorded"),
+    ("pipeline", "corpus", "marker_takes", "motion_takes", "recorded"),
     ("cli",),
 ]
 APART = ("schedule", "engines", "character", "export", "evaluate")

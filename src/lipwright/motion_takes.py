@@ -12,9 +12,9 @@ import multiprocessing
 import os
 import pickle
 import shutil
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Container, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -23,17 +23,53 @@ from numpy.typing import NDArray
 
 from lipwright.errors import InputError, LipwrightError
 from lipwright.files import file_version, write_atomically
+from lipwright.marker_takes import (
+    are_markers,
+    rest_of_database,
+    rest_of_takes,
+    with_same_markers,
+)
 from lipwright.phones import PhoneTrack, load_reduction
 from lipwright.timeline import Interval, Tier
 
 if TYPE_CHECKING:
-    from lipwright.engines.motion.capture import TakeFiles
+    from lipwright.engines.motion.capture import RestFace, TakeFiles
+    from lipwright.engines.motion.database import Database
     from lipwright.engines.motion.preparing import Prepared
     from lipwright.engines.motion.take import Take
 
 Progress = Callable[[float], None]
 _PART = ".takes"
-_VERSION = 1
+_VERSION = 2
+
+
+@dataclass(frozen=True, slots=True)
+class TakeReport:
+    """What became of one take.
+
+    Parameters
+    ----------
+    name : str
+    seconds : float
+        Of motion.
+    phones : int
+    gaps : float
+        Of markers, the share of places that were not seen, 0..1.
+    variance : float
+        Share of its variance that the database's components keep, 0..1.
+    notes : tuple of str
+        What was mended.
+    refused : str
+        Why it was left out; nothing where it was not.
+    """
+
+    name: str
+    seconds: float = 0.0
+    phones: int = 0
+    gaps: float = 0.0
+    variance: float = 0.0
+    notes: tuple[str, ...] = ()
+    refused: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,11 +84,36 @@ class Building:
         What was mended in a take.
     refused : tuple of str
         Takes that were left out, each with the reason.
+    reports : tuple of TakeReport
+        Of every take of the folder.
     """
 
     takes: int
     notes: tuple[str, ...]
     refused: tuple[str, ...]
+    reports: tuple[TakeReport, ...] = ()
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _How:
+    """How takes are prepared."""
+
+    language: str
+    rest: RestFace | None = None
+
+    @property
+    def state(self) -> list[object]:
+        """What tells it from another, as JSON values."""
+        rest = self.rest
+        return [self.language, rest and [rest.labels, rest.points.tolist(), rest.rigid]]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Answer:
+    """What comes of preparing a take, as it is kept."""
+
+    prepared: Prepared | None
+    report: TakeReport
 
 
 def build_motion(
@@ -96,20 +157,74 @@ def build_motion(
     """
     from lipwright.engines.motion.building import append, build
     from lipwright.engines.motion.capture import find_takes
-    from lipwright.engines.motion.database import Settings
+    from lipwright.engines.motion.database import Settings, open_database
     from lipwright.engines.motion.learnt import keep_learnt
 
     found = find_takes(folder, texts)
     target = Path(database)
     _check(target)
+    old = open_database(target) if add else None
+    rest = _rest(found, str(folder), old)
     part = target.parent / f".{target.name}{_PART}"
-    prepared, notes, refused = _prepared(found, part, language, workers, progress)
+    answers = _prepared(found, part, _How(language, rest), workers, progress)
+    prepared = [answer.prepared for answer in answers if answer.prepared is not None]
+    notes = [f"{one.report.name}: {note}" for one in answers for note in one.report.notes]
+    refused = [one.report.refused for one in answers if one.report.refused]
+    if rest is not None:
+        prepared, lost, short = with_same_markers(prepared, old.channels if old else None)
+        notes, refused = [*notes, *lost], [*refused, *short]
     if not prepared:
         raise InputError("no take can be used", where=str(folder), expected="; ".join(refused[:3]))
-    made = append(target, prepared) if add else build(target, prepared, Settings(clusters=clusters))
+    if old is not None:
+        made = append(target, prepared)
+    else:
+        face, rigid = _resting(prepared[0].channels, rest)
+        made = build(target, prepared, Settings(clusters=clusters), face, rigid)
     keep_learnt(made)
     shutil.rmtree(part, ignore_errors=True)
-    return Building(len(made.take_start), tuple(notes), tuple(refused))
+    reports = _reports(answers, made, dict.fromkeys(take.name for take in prepared))
+    return Building(len(made.take_start), tuple(notes), tuple(refused), reports)
+
+
+def _rest(found: Sequence[TakeFiles], folder: str, old: Database | None) -> RestFace | None:
+    """Return the face at rest that takes of markers are laid on; None for shapes."""
+    if not are_markers(found, folder):
+        return None
+    return rest_of_takes(found) if old is None else rest_of_database(old)
+
+
+def _resting(
+    channels: Sequence[str], rest: RestFace | None
+) -> tuple[NDArray[np.float64] | None, tuple[str, ...]]:
+    """Return the places of a database's markers at rest, and those that do not deform."""
+    from lipwright.engines.motion.markers import marker_channels, marker_labels
+
+    if rest is None:
+        return None, ()
+    places = dict(zip(marker_channels(rest.labels), rest.points.ravel().tolist(), strict=True))
+    kept = set(marker_labels(channels))
+    return np.array([places[name] for name in channels]), tuple(
+        label for label in rest.rigid if label in kept
+    )
+
+
+def _reports(
+    answers: Sequence[_Answer], made: Database, used: Container[str]
+) -> tuple[TakeReport, ...]:
+    """Return what became of each take, with what the components keep of it."""
+    names = {made.take_name(take): take for take in range(len(made.take_start))}
+    found = []
+    for one in (answer.report for answer in answers):
+        if one.refused or one.name not in used:
+            found.append(replace(one, refused=one.refused or "lost too many markers"))
+            continue
+        frames = slice(*made.take_first[names[one.name] : names[one.name] + 2].tolist())
+        away = made.values[frames] - made.mean
+        left = away - made.frames[frames] @ made.basis
+        whole = float((away**2).sum(dtype=np.float64))
+        kept = 1.0 - float((left**2).sum(dtype=np.float64)) / whole if whole > 0 else 1.0
+        found.append(replace(one, variance=round(kept, 5)))
+    return tuple(found)
 
 
 def _check(target: Path) -> None:
@@ -121,50 +236,42 @@ def _check(target: Path) -> None:
 def _prepared(
     found: Sequence[TakeFiles],
     part: Path,
-    language: str,
+    how: _How,
     workers: int | None,
     progress: Progress | None,
-) -> tuple[list[Prepared], list[str], list[str]]:
+) -> list[_Answer]:
     """Prepare takes, or take them from where an earlier run left them."""
     part.mkdir(parents=True, exist_ok=True)
-    kept = {take.name: part / f"{_key(take, language)}.take" for take in found}
+    kept = {take.name: part / f"{_key(take, how)}.take" for take in found}
     missing = [take for take in found if not kept[take.name].is_file()]
     done = len(found) - len(missing)
-    for _ in _work(missing, kept, language, workers):
+    for _ in _work(missing, kept, how, workers):
         done += 1
         if progress is not None:
             progress(0.95 * done / len(found))
-    prepared, notes, refused = [], [], []
-    for take in found:
-        answer, said = pickle.loads(kept[take.name].read_bytes())
-        if answer is None:
-            refused.append(said[0])
-        else:
-            prepared.append(answer)
-            notes += said
-    return prepared, notes, refused
+    return [pickle.loads(kept[take.name].read_bytes()) for take in found]
 
 
-def _key(take: TakeFiles, language: str) -> str:
+def _key(take: TakeFiles, how: _How) -> str:
     """What tells a take in its present state from any other."""
     paths = [path for path in (take.motion, take.sound, take.labels) if path is not None]
     state = [[str(path), file_version(str(path))] for path in paths]
-    text = json.dumps([_VERSION, take.name, take.text, language, state])
+    text = json.dumps([_VERSION, take.name, take.text, how.state, state])
     return hashlib.sha256(text.encode()).hexdigest()[:24]
 
 
 def _work(
-    takes: Sequence[TakeFiles], kept: dict[str, Path], language: str, workers: int | None
+    takes: Sequence[TakeFiles], kept: dict[str, Path], how: _How, workers: int | None
 ) -> Iterator[str]:
     """Prepare takes, several at once; give each one's name when it is done."""
     count = min(workers or os.cpu_count() or 1, len(takes))
     if count <= 1:
         for take in takes:
-            yield _one(take, kept[take.name], language)
+            yield _one(take, kept[take.name], how)
         return
     context = multiprocessing.get_context("spawn")
     with ProcessPoolExecutor(count, mp_context=context) as pool:
-        waiting = [pool.submit(_one, take, kept[take.name], language) for take in takes]
+        waiting = [pool.submit(_one, take, kept[take.name], how) for take in takes]
         try:
             for future in as_completed(waiting):
                 yield future.result()
@@ -173,23 +280,22 @@ def _work(
             raise
 
 
-def _one(take: TakeFiles, path: Path, language: str) -> str:
-    answer: tuple[Prepared | None, list[str]]
+def _one(take: TakeFiles, path: Path, how: _How) -> str:
     try:
-        answer = _prepare(take, language)
+        answer = _prepare(take, how)
     except LipwrightError as error:
-        answer = None, [str(error)]
+        answer = _Answer(None, TakeReport(take.name, refused=str(error)))
     write_atomically(path, pickle.dumps(answer))
     return take.name
 
 
-def _prepare(files: TakeFiles, language: str) -> tuple[Prepared, list[str]]:
+def _prepare(files: TakeFiles, how: _How) -> _Answer:
     """Read a take, put its words in time, listen to its sound."""
     from lipwright.engines.motion.preparing import prepare
     from lipwright.engines.motion.take import Take
     from lipwright.recorded import read_take
 
-    take = read_take(files, language)
+    take = read_take(files, how.language, how.rest)
     ready = prepare(
         Take(
             take.name,
@@ -203,7 +309,14 @@ def _prepare(files: TakeFiles, language: str) -> tuple[Prepared, list[str]]:
         ),
         features=_features,
     )
-    return ready, [f"{take.name}: {note}" for note in take.notes]
+    report = TakeReport(
+        take.name,
+        seconds=round(len(take.values) / take.rate, 3),
+        phones=len(ready.cut.labels),
+        gaps=round(take.cleaning.gap_share, 5) if take.cleaning else 0.0,
+        notes=take.notes,
+    )
+    return _Answer(ready, report)
 
 
 def _features(take: Take) -> NDArray[np.float32]:

@@ -23,7 +23,7 @@ from lipwright.timeline import Tier
 if TYPE_CHECKING:
     from lipwright.engines.bigram import BigramSet
     from lipwright.engines.bigram.fit import FaceTake, FitReport
-    from lipwright.engines.motion.capture import TakeFiles
+    from lipwright.engines.motion.capture import CleaningReport, RestFace, TakeFiles
     from lipwright.speech import Speech
 
 Progress = Callable[[float], None]
@@ -45,7 +45,8 @@ class Recorded:
     ----------
     name : str
     channels : tuple of str
-        ARKit's names.
+        ARKit's names; or coordinates of markers, see
+        :mod:`lipwright.engines.motion.markers`.
     values : (T, C) float
         Frame ``k`` holds what is seen at ``start + (k + 0.5) / rate``.
     rate : float
@@ -57,6 +58,8 @@ class Recorded:
     sound : Sound or None
     notes : tuple of str
         What was mended.
+    cleaning : CleaningReport, optional
+        Of markers: what was found and mended, and the face at rest that was subtracted.
     """
 
     name: str
@@ -68,6 +71,7 @@ class Recorded:
     words: Tier = field(default_factory=Tier)
     sound: Sound | None = None
     notes: tuple[str, ...] = ()
+    cleaning: CleaningReport | None = None
 
 
 def read_takes(
@@ -107,27 +111,30 @@ def read_takes(
     return takes
 
 
-def read_take(files: TakeFiles, language: str = "en-us") -> Recorded:
+def read_take(files: TakeFiles, language: str = "en-us", rest: RestFace | None = None) -> Recorded:
     """Read one take: its motion, and its phones from labels or from its sound and words.
+
+    Parameters
+    ----------
+    files : TakeFiles
+    language : str
+    rest : RestFace, optional
+        Of markers: the actor's face at rest, from another take.
 
     Raises
     ------
     InputError
         If a file of it cannot be used, or nothing says what is spoken.
     """
-    from lipwright.engines.motion.capture import check_length, read_motion
+    from lipwright.engines.motion.capture import check_length, clean, read_motion
     from lipwright.sound_files import read_sound
 
-    motion = read_motion(files.motion)
-    if motion.kind == "markers":
-        raise InputError(
-            "markers, which drive no character yet",
-            where=str(files.motion),
-            expected="blendshapes (.csv)",
-        )
+    motion, cleaning = read_motion(files.motion), None
     sound = read_sound(files.sound) if files.sound is not None else None
     if sound is not None:
         check_length(motion, sound.duration)
+    if motion.kind == "markers":
+        motion, cleaning = clean(motion, rest=rest)
     speech = _speech(files, sound, language)
     return Recorded(
         files.name,
@@ -139,6 +146,7 @@ def read_take(files: TakeFiles, language: str = "en-us") -> Recorded:
         speech.words,
         sound,
         (*motion.notes, *speech.notes),
+        cleaning,
     )
 
 

@@ -26,7 +26,8 @@ def build(
     folder: str | Path,
     takes: Iterable[Prepared],
     settings: Settings | None = None,
-    rest: NDArray[np.float32] | None = None,
+    rest: NDArray[np.floating] | None = None,
+    rigid: Sequence[str] = (),
 ) -> Database:
     """Build a database; one that is there stays whole until the new one is complete.
 
@@ -38,6 +39,8 @@ def build(
     settings : Settings, optional
     rest : (C,) float32, optional
         The face at rest that was subtracted from the channels; zeros where not given.
+    rigid : sequence of str
+        Of markers, those that do not deform.
 
     Raises
     ------
@@ -57,6 +60,8 @@ def build(
     if rest.shape != (shape,):
         raise InputError(f"a rest face of shape {rest.shape}", expected=f"{shape} channels")
     header, arrays = assembled(ready, settings)
+    if rigid:
+        header["rigid"] = list(rigid)
     write(place, header, {**arrays, "rest": rest})
     return open_database(place)
 
@@ -76,7 +81,8 @@ def append(folder: str | Path, takes: Iterable[Prepared]) -> Database:
     if not new:
         return database
     old = takes_of(database)
-    return build(folder, [*old, *new], database.settings, np.array(database.rest))
+    rest = np.array(database.rest)
+    return build(folder, [*old, *new], database.settings, rest, database.rigid)
 
 
 def takes_of(database: Database) -> list[Prepared]:

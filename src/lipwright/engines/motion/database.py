@@ -15,6 +15,7 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
+from lipwright.engines.motion.markers import marker_labels
 from lipwright.engines.motion.storage import HEADER, open_array, read_header
 from lipwright.errors import FileFormatError
 from lipwright.files import convert
@@ -70,6 +71,7 @@ class Header(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     components: int
     total_variance: float
     settings: Settings
+    rigid: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -148,6 +150,8 @@ class Database:
         What sound is scaled with.
     merged : Merged or None
         Where units were clustered.
+    rigid : tuple of str
+        Of markers, those that do not deform: takes that are added are laid on them.
     """
 
     folder: Path
@@ -183,6 +187,12 @@ class Database:
     sound_centre: NDArray[np.float32]
     sound_scale: NDArray[np.float32]
     merged: Merged | None
+    rigid: tuple[str, ...] = ()
+
+    @property
+    def markers(self) -> tuple[str, ...]:
+        """The markers whose coordinates the channels are, metres; none for blendshapes."""
+        return marker_labels(self.channels)
 
     def motion(self, first: int, last: int) -> NDArray[np.float32]:
         """Return the channels of some frames, ``last`` exclusive: (T, C) float32."""
@@ -236,6 +246,7 @@ def database_of(folder: Path, header: Header, arrays: Mapping[str, NDArray[Any]]
         settings=header.settings,
         total_variance=header.total_variance,
         merged=merged,
+        rigid=header.rigid,
         **own,
     )
 

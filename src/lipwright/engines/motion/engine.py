@@ -18,7 +18,7 @@ from lipwright.animation import Animation
 from lipwright.engines.motion.database import Database
 from lipwright.engines.motion.graph import UnitGraph, graph_of
 from lipwright.engines.motion.joining import Joined, join
-from lipwright.engines.motion.learnt import learnt_of, opening_in
+from lipwright.engines.motion.learnt import learnt_of
 from lipwright.engines.motion.rasta_plp import Features, rasta_plp
 from lipwright.engines.motion.search import (
     Costs,
@@ -70,8 +70,7 @@ class MotionEngine:
         self.database = database
         self.search = search
         self._graph = graph_of(database)
-        self._opening = opening_in(database)
-        self._learnt = learnt_of(database)
+        self._known = learnt_of(database)
         plain = isinstance(self._graph, UnitGraph)
         self._pairs = self._graph.pairs if plain else PairTable(database)
         self._reduction = load_reduction(database.phone_set)
@@ -92,7 +91,8 @@ class MotionEngine:
         Returns
         -------
         Animation
-            Of the database's channels. Frames lie on whole multiples of ``1 / rate`` on the
+            Of the database's channels: weights 0..1, or markers' places in metres on a
+            still head. Frames lie on whole multiples of ``1 / rate`` on the
             sound's clock. The report names the units, jumps and stand-ins.
 
         Raises
@@ -119,15 +119,15 @@ class MotionEngine:
             units,
             spans,
             rate,
-            learnt=self._learnt,
+            learnt=self._known.learnt,
             features=heard,
-            opening=self._opening,
+            opening=self._known.opening,
             phones=labels,
             pairs=self._pairs,
         )
         return Animation(
             self.database.channels,
-            np.clip(joined.motion + self.database.rest, 0.0, 1.0),
+            self._whole(joined.motion),
             rate,
             first / rate,
             {},
@@ -190,6 +190,11 @@ class MotionEngine:
             **told,
             "nearest_phones": {one.wanted: one.used for one in missing},
         }
+
+    def _whole(self, motion: NDArray[np.float32]) -> NDArray[np.float32]:
+        """Put the face at rest under a motion; markers have places, shapes a range."""
+        face = motion + self.database.rest
+        return face if self.database.markers else np.clip(face, 0.0, 1.0)
 
     def _class_of(self, label: str) -> str:
         pieces, _ = self._reduction.of(label)

@@ -16,7 +16,8 @@ from typing import Any
 import numpy as np
 
 from lipwright.engines.motion.capture.c3d_header import MOST_FRAMES, check_c3d
-from lipwright.engines.motion.capture.motion import Floats, Motion, marker_channels
+from lipwright.engines.motion.capture.motion import Floats, Motion
+from lipwright.engines.motion.markers import marker_channels
 from lipwright.errors import FileFormatError, MissingExtraError
 
 UNITS = {"mm": 1e-3, "cm": 1e-2, "dm": 0.1, "m": 1.0, "in": 0.0254, "inch": 0.0254}

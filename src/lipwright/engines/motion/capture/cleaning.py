@@ -21,11 +21,12 @@ from lipwright.engines.motion.capture.head import (
     spans,
     still_face,
 )
-from lipwright.engines.motion.capture.motion import Floats, Motion, marker_channels
+from lipwright.engines.motion.capture.motion import Floats, Motion
 from lipwright.engines.motion.capture.report import CleaningReport, RestFace
 from lipwright.engines.motion.capture.rigid import rigid_markers
 from lipwright.engines.motion.capture.spikes import find_spikes
 from lipwright.engines.motion.capture.swaps import Swap, find_swaps
+from lipwright.engines.motion.markers import marker_channels
 from lipwright.errors import InputError, did_you_mean
 
 LONGEST_GAP = 1.0

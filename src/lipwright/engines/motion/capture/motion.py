@@ -15,7 +15,6 @@ Kind = Literal["blendshapes", "markers"]
 
 DISAGREE = 0.2
 """Seconds by which a take and its sound may differ in length."""
-AXES = ("x", "y", "z")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -73,17 +72,6 @@ class Motion:
     def points(self) -> Floats:
         """The markers' places, (T, M, 3) float64, metres."""
         return self.values.reshape(len(self.values), -1, 3).astype(np.float64)
-
-
-def marker_channels(labels: tuple[str, ...]) -> tuple[str, ...]:
-    """Return the channels of markers: three coordinates each.
-
-    Examples
-    --------
-    >>> marker_channels(("chin",))
-    ('chin.x', 'chin.y', 'chin.z')
-    """
-    return tuple(f"{label}.{axis}" for label in labels for axis in AXES)
 
 
 def check_length(motion: Motion, sound_seconds: float) -> None:
