@@ -30,7 +30,7 @@ Shape = Callable[[Anatomy], list[Move]]
 def _jaw_open(part: Anatomy) -> list[Move]:
     return [
         *jaw(part, JAW_OPEN_DEGREES, forward=5.0, down=2.0),
-        gather(part, part.near, 0.13),
+        gather(part, part.near, 0.107),
         shift(upper(part), y=0.8),
     ]
 
@@ -91,7 +91,7 @@ def _smile(part: Anatomy, side: int) -> list[Move]:
     one = half(part, side)
     thin = part.near * one * (1 - part.red)
     return [
-        *_at_corner(part, side, 7.0, 6.0, -4.5, cheek=2.4),
+        *_at_corner(part, side, 9.0, 6.0, -4.5, cheek=2.4),
         shift(thin * np.clip(-part.side, 0, 1), y=0.8),
         shift(part.near * one * np.abs(part.side), z=-1.0),
     ]
@@ -214,7 +214,7 @@ SHAPES: dict[str, Shape] = {
     **_both("mouthSmile", _smile),
     **_both("mouthFrown", partial(_at_corner, x=1.5, y=-6.0, z=-2.0)),
     **_both("mouthDimple", partial(_at_corner, x=4.5, y=1.0, z=-5.5)),
-    **_both("mouthStretch", partial(_at_corner, x=7.5, y=-3.0, z=-4.5)),
+    **_both("mouthStretch", partial(_at_corner, x=7.8, y=-3.0, z=-4.5)),
     "mouthRollLower": partial(_roll, above=False),
     "mouthRollUpper": partial(_roll, above=True),
     "mouthShrugLower": _shrug_lower,
