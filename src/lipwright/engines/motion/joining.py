@@ -178,7 +178,7 @@ def join(
     count = max(1, round((end - start) * rate))
     times: Floats = start + (np.arange(count, dtype=np.float64) + 0.5) / rate
     found = pairs or PairTable(data)
-    courses = [_course(data, path, held, phones, features) for path in paths]
+    courses = _courses(data, paths, held, phones, features)
     drawn = [_drawn(data, course, times, found) for course in courses]
     frames: Floats = np.mean([one.frames for one in drawn], axis=0)
     if learnt is not None:
@@ -231,16 +231,26 @@ def _spans(paths: Ints, spans: NDArray[np.floating]) -> Floats:
     return held
 
 
-def _course(
+def _courses(
     data: Recorded,
-    units: Ints,
+    paths: Ints,
     spans: Floats,
     phones: Sequence[str] | None,
     features: Features | None,
-) -> Course:
-    own = [data.labels[label] for label in data.label[units]]
-    spoken = tuple(own if phones is None else phones)
-    return Course(units, spans, spoken, _warps(data, units, spans, spoken, features))
+) -> list[Course]:
+    """Return the course of each path (M, N); their warps are found all at once."""
+    spoken = [
+        tuple([data.labels[label] for label in data.label[units]] if phones is None else phones)
+        for units in paths
+    ]
+    every = np.tile(spans, (len(paths), 1))
+    said = [label for labels in spoken for label in labels]
+    warps = _warps(data, paths.ravel(), every, said, features)
+    each = warps.reshape(*paths.shape, -1)
+    return [
+        Course(units, spans, labels, warp)
+        for units, labels, warp in zip(paths, spoken, each, strict=True)
+    ]
 
 
 def _warps(

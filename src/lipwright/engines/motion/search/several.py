@@ -10,6 +10,7 @@ is a search by cost alone; the publication's searches put the fewest jumps first
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,9 +20,9 @@ from lipwright.engines.motion.database import Database
 Floats = NDArray[np.float64]
 Nodes = NDArray[np.int64]
 
-PATHS = 8
-KEPT = 48
-"""Units of a phone that a path chooses among."""
+PATHS = 12
+KEPT = 96
+"""Units of a phone that paths choose among."""
 LOOKED_AT = 4096
 """Units of a phone that are compared, spread evenly over the database, if it holds more."""
 NEIGHBOUR = 1.0
@@ -29,8 +30,8 @@ NEIGHBOUR = 1.0
 ALIKE = 0.4
 LENGTH = 2.0
 """What a unit costs that is e times as long or short as wanted."""
-JUMP = 0.5
-USED = 1.2
+JUMP = 0.2
+USED = 1.5
 _SHORTEST = 0.02
 
 
@@ -75,12 +76,13 @@ def several(
         _phone(database, asked, place, float(lengths[place]), classes, sound)
         for place in range(len(asked))
     ]
-    used = [np.zeros(len(phone.units)) for phone in phones]
+    seams = [_seams(database, one.units, other.units) for one, other in pairwise(phones)]
+    costs = [phone.cost.copy() for phone in phones]
     found = np.empty((paths, len(asked)), np.int64)
     for path in range(paths):
-        for place, chosen in enumerate(_cheapest(database, phones, used)):
+        for place, chosen in enumerate(_cheapest(costs, seams)):
             found[path, place] = phones[place].units[chosen]
-            used[place][chosen] += USED
+            costs[place][chosen] += USED
     return found
 
 
@@ -107,6 +109,9 @@ def _phone(
     spans = database.spans[units]
     own = np.maximum((spans[:, 1] - spans[:, 0]) / database.rate, _SHORTEST)
     cost += LENGTH * np.abs(np.log(own / max(length, _SHORTEST)))
+    if len(cost) > KEPT:
+        best = np.argpartition(cost, KEPT)[:KEPT]
+        units, cost = units[best], cost[best]
     return _Phone(units, cost)
 
 
@@ -124,31 +129,18 @@ def _strangeness(
     return cost
 
 
-def _cheapest(database: Database, phones: list[_Phone], used: list[Floats]) -> list[int]:
+def _cheapest(costs: list[Floats], seams: list[Floats]) -> list[int]:
     """Return, for each phone, the place of its unit on the cheapest path."""
-    kept: list[Nodes] = []
-    ways: list[Nodes] = []
-    units: Nodes = np.empty(0, np.int64)
-    so_far: Floats = np.empty(0)
-    for phone, before in zip(phones, used, strict=True):
-        cost = phone.cost + before
-        best = np.argpartition(cost, KEPT)[:KEPT] if len(cost) > KEPT else np.arange(len(cost))
-        own = phone.units[best]
-        if kept:
-            through = so_far[:, None] + _seams(database, units, own)
-            way = through.argmin(axis=0)
-            ways.append(way)
-            so_far = through[way, np.arange(len(own))] + cost[best]
-        else:
-            so_far = cost[best]
-        kept.append(best)
-        units = own
-    place = int(so_far.argmin())
-    places = [place]
+    so_far, ways = costs[0], []
+    for seam, cost in zip(seams, costs[1:], strict=True):
+        through = so_far[:, None] + seam
+        way = through.argmin(axis=0)
+        ways.append(way)
+        so_far = through[way, np.arange(len(cost))] + cost
+    places = [int(so_far.argmin())]
     for way in reversed(ways):
-        place = int(way[place])
-        places.append(place)
-    return [int(best[at]) for best, at in zip(kept, reversed(places), strict=True)]
+        places.append(int(way[places[-1]]))
+    return places[::-1]
 
 
 def _seams(database: Database, left: Nodes, right: Nodes) -> Floats:
