@@ -19,7 +19,8 @@ LAYERS = [
     ("animation", "speech"),
     ("performance",),
     ("schedule", "engines", "character", "export", "evaluate"),
-    ("casting",),
+    ("casting", "told_in_poses"),
+    ("acting",),
     ("pipeline", "corpus", "marker_takes", "motion_takes", "recorded"),
     ("cli",),
 ]

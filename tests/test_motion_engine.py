@@ -151,8 +151,8 @@ BAD = {
     "no such database": (["--engine", "motion", "--database", "none"], "none: no such folder"),
     "no database there": (["--engine", "motion", "--database", "."], "lipwright: "),
     "another engine": (["--database", "none"], "a motion database, with the bigram engine"),
-    "a set": (
-        ["--engine", "motion", "--database", "none", "--set", "english"],
+    "overrides": (
+        ["--engine", "motion", "--database", "none", "--overrides", "mine.json"],
         "with the motion engine",
     ),
 }
@@ -172,11 +172,3 @@ def test_bad_input_is_one_line(
     assert told in error
     assert error.count("\n") == 1
     assert list(tmp_path.iterdir()) == []
-
-
-def test_a_character_without_these_shapes_is_refused(
-    database: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    given = ["--engine", "motion", "--database", str(database), "--character", "crab"]
-    assert main(["say", "Hello.", *given, "-o", str(tmp_path / "a.glb")]) == 1
-    assert "none of the controls" in capsys.readouterr().err

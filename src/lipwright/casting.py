@@ -154,7 +154,7 @@ def check_engine(engine: str, database: str | Path | None, of_bigrams: Sequence[
         )
     if any(given is not None for given in of_bigrams):
         raise InputError(
-            "a set, overrides, a reduction or edits, with the motion engine",
+            "overrides, a reduction or edits, with the motion engine",
             cure="leave them out: they are the bigram engine's",
         )
 

@@ -98,3 +98,42 @@ class Keys:
     def pairs(self) -> list[tuple[float, float]]:
         """Return the keys as ``(time, value)`` pairs."""
         return list(zip(self.times.tolist(), self.values.tolist(), strict=True))
+
+
+def reduced(times: ArrayLike, values: ArrayLike, tolerance: float) -> Keys:
+    """Return the few keys of a curve that keep it within a tolerance at every sample.
+
+    The sample farthest from the line between two keys becomes a key, and again on both sides
+    of it (Ramer 1972; Douglas, Peucker 1973), with distance measured in value.
+
+    Parameters
+    ----------
+    times : (N,) float
+        Increasing.
+    values : (N,) float
+    tolerance : float
+        The farthest that a sample may lie from the keys' curve.
+
+    Examples
+    --------
+    >>> reduced([0, 1, 2, 3, 4], [0, 0.5, 1, 0.5, 0], 0.01).pairs()
+    [(0.0, 0.0), (2.0, 1.0), (4.0, 0.0)]
+    """
+    at, sought = np.asarray(times, np.float64), np.asarray(values, np.float64)
+    last = len(at) - 1
+    kept = {0, last} if last >= 0 else set()
+    open_spans = [(0, last)]
+    while open_spans:
+        low, high = open_spans.pop()
+        if high - low < 2:
+            continue
+        inside = slice(low + 1, high)
+        line = np.interp(at[inside], at[[low, high]], sought[[low, high]])
+        apart = np.abs(sought[inside] - line)
+        far = int(apart.argmax())
+        if apart[far] > tolerance:
+            middle = low + 1 + far
+            kept.add(middle)
+            open_spans += [(low, middle), (middle, high)]
+    chosen = sorted(kept)
+    return Keys(at[chosen], sought[chosen])

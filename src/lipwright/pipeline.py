@@ -14,6 +14,7 @@ from functools import cache, lru_cache, partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from lipwright.acting import act
 from lipwright.casting import character_file, check_engine, engine_for, motion_engine
 from lipwright.errors import CharacterError, SoundError
 from lipwright.performance import Performance
@@ -168,6 +169,7 @@ def animate(
     rate: float = 60.0,
     database: str | Path | None = None,
     search: str = "several",
+    controls: str | None = None,
     pictures: str | Path | None = None,
     without: Sequence[str] = (),
     fps: float | None = None,
@@ -183,7 +185,8 @@ def animate(
     engine : str
         ``"bigram"``, or ``"motion"``, which needs a ``database``.
     bigram_set : str or path, optional
-        A set that comes with Lipwright, or a file; else the character's, else English.
+        A set that comes with Lipwright, or a file; else the character's, else English. With
+        the motion engine: in whose poses its motion is told.
     preset : str
         ``"default"``, ``"published"``, or one that the set brings.
     overrides : path, optional
@@ -205,6 +208,9 @@ def animate(
     search : str
         How the motion engine searches: ``"several"``, the mean of several paths, or one path:
         ``"optimal"``, ``"greedy"``, ``"pq"``.
+    controls : str, optional
+        What the motion engine gives: ``"recorded"``, the takes' own channels, or ``"poses"``,
+        those of the set; what the character can play, where it is not given.
     pictures : str or path, optional
         The mouth shapes that formats of held shapes use for a character with a model;
         ``"rhubarb"`` where none are given.
@@ -224,11 +230,13 @@ def animate(
     from lipwright.character.pictures import hold as hold_pictures
     from lipwright.engines.bigram import read_edits
 
-    check_engine(engine, database, (bigram_set, overrides, reduction, edits))
+    check_engine(engine, database, (overrides, reduction, edits))
     shapes = choose(character, pictures, mapping, without=without, fps=fps, on=on, hold=hold)
     own = ""
     if database is not None:
-        animation = motion_engine(database, search).animate(speech, rate)
+        mover = motion_engine(database, search)
+        recorded = mover.animate(speech, rate)
+        animation = act(recorded, speech, mover.database, character, mapping, controls, bigram_set)
     else:
         made = engine_for(bigram_set, preset, overrides, reduction, character, speech.language)
         own = made.of.name

@@ -50,20 +50,23 @@ class Unmixing:
     alike: Floats
     products: Floats
 
-    def weights(self, values: NDArray[np.floating]) -> Floats:
+    def weights(self, values: NDArray[np.floating], given: Floats | None = None) -> Floats:
         """Return the weights of the poses.
 
         Parameters
         ----------
         values : (T, C) float
             Of the channels; differences from a face at rest may be below 0.
+        given : (T, P) float64, optional
+            What poses have, whatever the values say, where it is no NaN; the others
+            make it good.
 
         Returns
         -------
         (T, P) float64
             In 0..1.
         """
-        return nonnegative(self.alike, np.asarray(values, np.float64) @ self.products.T)
+        return nonnegative(self.alike, np.asarray(values, np.float64) @ self.products.T, given)
 
 
 def unmixing(channels: Sequence[str], poses: Sequence[str]) -> Unmixing:
@@ -97,7 +100,7 @@ def unmixing(channels: Sequence[str], poses: Sequence[str]) -> Unmixing:
     return Unmixing(known, shown, alike, here @ there.T / scale)
 
 
-def nonnegative(squares: Floats, products: Floats) -> Floats:
+def nonnegative(squares: Floats, products: Floats, given: Floats | None = None) -> Floats:
     """Minimise ``x' A x / 2 - b' x`` with x in 0..1, for many b at once.
 
     Cyclic coordinate descent, which finds the minimum of any positive definite A.
@@ -108,18 +111,23 @@ def nonnegative(squares: Floats, products: Floats) -> Floats:
         A.
     products : (T, P) float64
         A row for each b.
+    given : (T, P) float64, optional
+        What x is, where it is no NaN.
 
     Returns
     -------
     (T, P) float64
     """
-    found = np.zeros_like(products)
+    low, high = np.zeros_like(products), np.ones_like(products)
+    if given is not None:
+        low, high = np.where(np.isnan(given), low, given), np.where(np.isnan(given), high, given)
+    found = low.copy()
     for _ in range(SWEEPS):
         moved = 0.0
         for pose in range(len(squares)):
             column = found[:, pose]
             rest = products[:, pose] - found @ squares[:, pose]
-            better = np.clip(column + rest / squares[pose, pose], 0.0, 1.0)
+            better = np.clip(column + rest / squares[pose, pose], low[:, pose], high[:, pose])
             moved = max(moved, float(np.abs(better - column).max(initial=0.0)))
             found[:, pose] = better
         if moved < CLOSE:

@@ -46,6 +46,11 @@ animation = stack(
         help="How the motion engine searches: the mean of several paths, or one path.",
     ),
     click.option(
+        "--controls", type=click.Choice(["recorded", "poses"]),
+        help="What the motion engine gives: the takes' own channels, or the poses of the set; "
+        "what the character can play, where it is not given.",
+    ),
+    click.option(
         "--set", "bigram_set", metavar="SET",
         help="Bigram set: a name, or a .json file; else the character's, else english.",
     ),

@@ -46,8 +46,8 @@ class Known:
 
 def learn_known(database: Database) -> Known:
     """Learn from a database."""
-    markers = len(database.markers)
-    row = opening_row(database, markers) if markers else None
+    places = np.asarray(database.rest, np.float64).reshape(-1, 3) if database.markers else None
+    row = opening_row(database, places) if places is not None else None
     opening = _opening(database, row)
     return Known(learn(database, opening), opening, row)
 

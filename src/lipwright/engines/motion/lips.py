@@ -2,7 +2,8 @@
 
 Nobody names markers alike, so names say nothing here. In p, b and m the lips touch, so the
 distance between a marker on the upper and one on the lower is the same every time; in open
-vowels it is not. The pairs of markers that tell the two apart best are the lips'. Their
+vowels it is not. The pairs of markers that tell the two apart best, for how near they lie to
+one another, are the lips': chin and nose part as widely, but not from so near. Their
 distances along their own lines, linear in the markers' places, are the opening.
 """
 
@@ -22,23 +23,26 @@ OPEN = ("aa", "ae", "ah", "ao", "aw", "ay", "eh", "ey")
 """Phones that open the mouth."""
 NOISE = 2e-4
 """Metres by which a distance between touching lips may vary and still be as good as none."""
+NEAR = 5e-3
+"""Metres below which it matters little how near two markers lie."""
 PAIRS = 4
 UNITS = 400
 _FEWEST = 3
 
 
-def opening_row(data: Recorded, markers: int) -> Floats | None:
+def opening_row(data: Recorded, rest: Floats) -> Floats | None:
     """Return how markers tell that the lips are open.
 
     Parameters
     ----------
     data : Recorded
-        Of displacements of markers, ``(F, 3 * markers)``, metres.
-    markers : int
+        Of displacements of markers, ``(F, 3 * M)``, metres.
+    rest : (M, 3) float64
+        Where they are at rest.
 
     Returns
     -------
-    (3 * markers,) float64 or None
+    (3 * M,) float64 or None
         ``motion @ row`` is how far the lips are apart, in metres from how they are at rest;
         None where too few closures or open vowels were recorded, or no pair of markers
         tells them apart.
@@ -47,7 +51,7 @@ def opening_row(data: Recorded, markers: int) -> Floats | None:
     if min(len(closed), len(opened)) < _FEWEST:
         return None
     moves = opened.mean(axis=0) - closed.mean(axis=0)
-    one, other = np.triu_indices(markers, 1)
+    one, other = np.triu_indices(len(rest), 1)
     apart = moves[one] - moves[other]
     wide = np.linalg.norm(apart, axis=1)
     lines = apart / np.maximum(wide, 1e-12)[:, None]
@@ -57,11 +61,12 @@ def opening_row(data: Recorded, markers: int) -> Floats | None:
         some = slice(first, last)
         between = closed[:, one[some]] - closed[:, other[some]]
         spread[some] = np.einsum("fpi,pi->fp", between, lines[some]).std(axis=0)
-    clear = wide / (spread + NOISE)
+    near = np.linalg.norm(rest[one] - rest[other], axis=1) + NEAR
+    clear = wide / (spread + NOISE) / near
     best = np.argsort(-clear, kind="stable")[:PAIRS]
     if not len(best) or wide[best[0]] < 5 * NOISE:
         return None
-    row = np.zeros((markers, 3))
+    row = np.zeros(rest.shape)
     for pair in best.tolist():
         row[one[pair]] += lines[pair] / len(best)
         row[other[pair]] -= lines[pair] / len(best)
