@@ -38,10 +38,11 @@ def indices(of: Database, line: str) -> np.ndarray:
     return np.array([of.labels.index(one) if one in of.labels else 0 for one in line])
 
 
-def costs(graph: Graph, count: int, seed: int = 7) -> Costs:
+def costs(graph: Graph, count: int, seed: int = 7, unusual: float = 8.0) -> Costs:
     rng = np.random.default_rng(seed)
     width = graph.database.unit_sound.shape[1]
-    return Costs(graph, rng.normal(size=(count, width)).astype(np.float32))
+    sound = rng.normal(size=(count, width)).astype(np.float32)
+    return Costs(graph, sound, unusual_weight=unusual)
 
 
 def every_path(graph: Graph, wanted: Sequence[int], measured: Costs) -> list[tuple[int, float]]:
@@ -207,6 +208,13 @@ def test_greedy_takes_the_match_that_sounds_nearest() -> None:
         assert path.units.tolist() == [unit, unit + 1]
 
 
+def test_of_units_that_sound_alike_the_more_usual_is_taken() -> None:
+    held = database(*(["a"] * 20))
+    sound = np.array(held.unit_sound[:1]) + 100.0  # as far from all of them
+    path = greedy(UnitGraph(held), np.array([0]), Costs(UnitGraph(held), sound))
+    assert held.unusual[path.units[0]] == held.unusual.min()
+
+
 def test_of_many_matches_some_spread_over_all_are_compared() -> None:
     held = database(*(["ab"] * 500))
     graph = UnitGraph(held)
@@ -256,7 +264,7 @@ def test_without_classes_a_missing_phone_gets_the_most_frequent() -> None:
 def test_a_node_sounds_as_well_as_its_best_unit() -> None:
     held = database("aaaa", "aaa", settings=Settings(clusters=2, motion_points=4))
     graph = MergedGraph(held)
-    measured = costs(graph, 1)
+    measured = costs(graph, 1, unusual=0.0)
     each = measured.unit_sounds(np.zeros(7, np.int64), np.arange(7))
     for node in range(2):
         members = np.flatnonzero(graph.merged.cluster == node)

@@ -19,6 +19,7 @@ from lipwright.engines.motion.database import SOUND_PARAMETERS, Settings
 from lipwright.engines.motion.label_index import pack, suffix_array
 from lipwright.engines.motion.preparing import Prepared
 from lipwright.engines.motion.units import at_points, seams, whole_frames
+from lipwright.engines.motion.unusual import POINTS, unusual
 from lipwright.errors import InputError
 
 MOST_UNITS = 2**31 - 1
@@ -44,13 +45,12 @@ def assembled(
     arrays |= _motion(takes, basis, settings) | _sound(takes, settings)
     label, take = arrays["label"], arrays["take"]
     arrays |= label_table(label, take, len(labels))
+    moves = _at_points(takes, basis, POINTS) / (np.sqrt(basis.total) or 1.0)
+    arrays["unusual"] = unusual(moves, label, take)
     if settings.clusters:
         # A sharp split of motion that is nearly the same would not help: components suffice.
-        points = [
-            at_points(basis.project(take.values), take.cut.spans, settings.motion_points)
-            for take in takes
-        ]
-        vectors = np.concatenate(points).astype(np.float32).reshape(len(label), -1)
+        points = _at_points(takes, basis, settings.motion_points)
+        vectors = points.astype(np.float32).reshape(len(label), -1)
         arrays |= merged(vectors, settings.clusters, label, take, len(labels), settings.seed)
     header = {
         "phone_set": takes[0].phone_set,
@@ -65,6 +65,12 @@ def assembled(
         "settings": msgspec.to_builtins(settings),
     }
     return header, arrays
+
+
+def _at_points(takes: Sequence[Prepared], basis: Components, points: int) -> NDArray[np.float64]:
+    """The motion of all units at as many instants each, (U, points, K)."""
+    found = [at_points(basis.project(take.values), take.cut.spans, points) for take in takes]
+    return np.concatenate(found)
 
 
 def _take_table(takes: Sequence[Prepared]) -> dict[str, NDArray[Any]]:

@@ -135,6 +135,9 @@ class Database:
         Sound at the same number of points each, scaled to deviation 1.
     seams : (U, 2, 2K) float32
         Value and velocity at begin and end, over the motion's deviation.
+    unusual : (U,) float32
+        How far its motion is from the usual, over the motion's deviation; see
+        :mod:`lipwright.engines.motion.unusual`.
     by_label, label_first : (U,) int32, (L + 1,) int64
         Units of each label, ascending: the paper's anime array.
     suffixes, keys : (U,) int32, (U,) int64
@@ -175,6 +178,7 @@ class Database:
     spans: NDArray[np.float64]
     unit_sound: NDArray[np.float32]
     seams: NDArray[np.float32]
+    unusual: NDArray[np.float32]
     by_label: NDArray[np.int32]
     label_first: Offsets
     suffixes: NDArray[np.int32]
@@ -282,6 +286,7 @@ def _shapes(header: Header) -> dict[str, tuple[str, tuple[int | None, ...]]]:
         "spans": ("<f8", (units, 2)),
         "unit_sound": ("<f4", (units, SOUND_PARAMETERS * header.settings.sound_points)),
         "seams": ("<f4", (units, 2, 2 * rows)),
+        "unusual": ("<f4", (units,)),
         "by_label": ("<i4", (units,)),
         "label_first": ("<i8", (labels + 1,)),
         "suffixes": ("<i4", (units,)),

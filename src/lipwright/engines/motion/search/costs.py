@@ -1,8 +1,9 @@
-"""How badly a unit sounds for a phone, and how badly two units join (DESIGN section 5).
+"""How badly a unit suits a phone, and how badly two units join (DESIGN section 5).
 
-Both distances have no unit: sound is scaled to the database's deviation per parameter,
-motion to its deviation from the mean, so that 1 is the difference between a thing and
-its average. Both are weighted and added.
+Distances have no unit: sound is scaled to the database's deviation per parameter, motion to
+its deviation from the mean, so that 1 is the difference between a thing and its average. A
+unit suits by how it sounds and, ours, by how usual its motion is for its phone: an unusual
+one must sound the better. The publication's third criterion alone leaves much to chance. All are weighted and added.
 """
 
 from __future__ import annotations
@@ -16,6 +17,9 @@ from lipwright.engines.motion.units import at_points
 from lipwright.errors import InputError
 
 Floats = NDArray[np.float64]
+
+UNUSUAL = 8.0
+"""How much dearer a unit is whose motion is as far from the usual as motion is from its mean."""
 
 
 def wanted_sound(
@@ -55,8 +59,8 @@ class Costs:
     graph : Graph
     sound : (N, D) float32, optional
         Of the wanted phones, from :func:`wanted_sound`; without it only motion counts.
-    sound_weight, joining_weight : float
-        What the two kinds of distance are multiplied by.
+    sound_weight, joining_weight, unusual_weight : float
+        What the kinds of distance are multiplied by.
     """
 
     def __init__(
@@ -65,6 +69,7 @@ class Costs:
         sound: NDArray[np.float32] | None = None,
         sound_weight: float = 1.0,
         joining_weight: float = 1.0,
+        unusual_weight: float = UNUSUAL,
     ) -> None:
         width = graph.database.unit_sound.shape[1]
         if sound is not None and (sound.ndim != 2 or sound.shape[1] != width):
@@ -77,25 +82,35 @@ class Costs:
         self._seams = graph.database.seams
         self._sound_weight = sound_weight / np.sqrt(width)
         self._joining_weight = joining_weight
+        self._unusual = graph.database.unusual
+        self._unusual_weight = unusual_weight
 
     def sound(self, phone: int, nodes: Nodes) -> Floats:
-        """Return how far nodes sound from one wanted phone: (M,), the least of a node's sounds."""
+        """Return how badly nodes suit one wanted phone: (M,), by the least of a node's sounds."""
         return self.sounds(np.full(len(nodes), phone), nodes)
 
     def sounds(self, phones: Nodes, nodes: Nodes) -> Floats:
-        """Return how far each node sounds from its own wanted phone: (M,)."""
-        if self._sound is None or not len(nodes):
-            return np.zeros(len(nodes))
+        """Return how badly each node suits its own wanted phone: (M,)."""
+        if not len(nodes):
+            return np.zeros(0)
         units, first = self._graph.sounds(nodes)
         if len(units) == len(nodes):
             return self.unit_sounds(phones, units)
         counts = np.diff(np.append(first, len(units)))
-        every = self.unit_sounds(np.repeat(phones, counts), units)
+        every = self._heard_as(np.repeat(phones, counts), units)
         least: Floats = np.minimum.reduceat(every, first)
-        return least
+        return self._suited(least, self._graph.units(nodes))
 
     def unit_sounds(self, phones: Nodes, units: Nodes) -> Floats:
-        """Return how far each unit sounds from its own wanted phone: (M,)."""
+        """Return how badly each unit suits its own wanted phone: (M,)."""
+        return self._suited(self._heard_as(phones, units), units)
+
+    def _suited(self, heard: Floats, units: Nodes) -> Floats:
+        """Make units that move unusually dearer: what sounds just as wanted stays free."""
+        odd = self._unusual_weight * self._unusual.take(units).astype(np.float64)
+        return odd if self._sound is None else heard * (1.0 + odd)
+
+    def _heard_as(self, phones: Nodes, units: Nodes) -> Floats:
         if self._sound is None:
             return np.zeros(len(units))
         away = self._heard.take(units, axis=0)
@@ -130,6 +145,6 @@ class Costs:
         return distance * self._joining_weight
 
     def total(self, nodes: Nodes) -> float:
-        """Return the cost of a whole path: sound of each node, joining of each pair."""
-        heard = float(self.sounds(np.arange(len(nodes)), nodes).sum())
-        return heard + float(self.joinings(nodes[:-1], nodes[1:]).sum())
+        """Return the cost of a whole path: how each node suits, and joins the next."""
+        suits = float(self.sounds(np.arange(len(nodes)), nodes).sum())
+        return suits + float(self.joinings(nodes[:-1], nodes[1:]).sum())

@@ -1,0 +1,169 @@
+"""Lines that were recorded and left out: what is wanted of a search, and what was true."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lipwright.engines.motion.database import Database
+from lipwright.engines.motion.graph import Graph, UnitGraph
+from lipwright.engines.motion.joining import join
+from lipwright.engines.motion.learnt import Known
+from lipwright.engines.motion.rasta_plp import Features
+from lipwright.engines.motion.search import Costs, Search, label_indices, several, wanted_sound
+from lipwright.engines.motion.splicing import PairTable
+from lipwright.phones import load_reduction
+
+Floats = NDArray[np.float64]
+Units = NDArray[np.int64]
+Finding = Callable[["Base", "Line"], tuple[Units, int]]
+"""Finds units, one path or several, for a line; and says how many jumps the first has."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Base:
+    """A database with what its engine keeps at hand."""
+
+    database: Database
+    graph: Graph
+    pairs: PairTable | UnitGraph
+    known: Known
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Line:
+    """Phones that were recorded one after the other.
+
+    Parameters
+    ----------
+    labels : tuple of str
+    spans : (N, 2) float64
+        Seconds.
+    heard : Features
+    true : (T, C) float32
+        The motion at the database's own rate.
+    """
+
+    labels: tuple[str, ...]
+    spans: Floats
+    heard: Features
+    true: NDArray[np.float32]
+
+
+def line(left_out: Database, first: int, count: int) -> Line:
+    """Return some units of takes left out, as a line; takes follow one another.
+
+    Parameters
+    ----------
+    left_out : Database
+        Of the takes left out.
+    first, count : int
+        The first unit, and how many.
+    """
+    spans = np.asarray(left_out.spans[first : first + count], np.float64).copy()
+    low, high = int(np.floor(spans[0, 0])), int(np.ceil(spans[-1, 1]))
+    spans[0, 0], spans[-1, 1] = low, high
+    spans[1:, 0] = spans[:-1, 1]
+    rate = left_out.rate
+    return Line(
+        tuple(left_out.labels[label] for label in left_out.label[first : first + count]),
+        (spans - low) / rate,
+        Features(np.asarray(left_out.features[low:high]), rate),
+        np.asarray(left_out.values[low:high]),
+    )
+
+
+def one_path(search: Search) -> Finding:
+    """Return what finds a single path by one of the publication's searches, or ours."""
+
+    def find(base: Base, said: Line) -> tuple[Units, int]:
+        wanted, sound = _wanted(base.database, said)
+        path = search(base.graph, wanted, Costs(base.graph, sound))
+        return path.units, path.jumps
+
+    return find
+
+
+def several_paths(base: Base, said: Line) -> tuple[Units, int]:
+    """Find several paths whose mean is taken; the first one's jumps are counted."""
+    wanted, sound = _wanted(base.database, said)
+    classes = _classes(base.database)
+    units = several(base.database, wanted, np.diff(said.spans)[:, 0], classes, sound)
+    take = base.database.take
+    first = units[0]
+    follows = (first[1:] == first[:-1] + 1) & (take[first[1:]] == take[first[:-1]])
+    return units, int((~follows).sum())
+
+
+def _wanted(database: Database, said: Line) -> tuple[Units, NDArray[np.float32]]:
+    wanted, _ = label_indices(database, said.labels)
+    return wanted, wanted_sound(database, said.heard.values, said.heard.rate, 0.0, said.spans)
+
+
+def _classes(database: Database) -> Units:
+    reduction = load_reduction(database.phone_set)
+    names = [reduction.of(label)[0][0].label for label in database.labels]
+    return np.array([names.index(name) for name in names], np.int64)
+
+
+@dataclass(frozen=True, slots=True)
+class Result:
+    """What a search is worth on a line.
+
+    Parameters
+    ----------
+    seconds : float
+        Of the search alone.
+    jumps : int
+    rms : float
+        Root of the mean square distance of the joined motion from the recorded one, over
+        the recordings' deviation from their mean face: 1 is that face held still.
+    """
+
+    seconds: float
+    jumps: int
+    rms: float
+
+
+def tried(base: Base, said: Line, find: Finding, runs: int = 1) -> Result:
+    """Search, join, and hold the motion against what was recorded.
+
+    Parameters
+    ----------
+    base : Base
+    said : Line
+    find : function
+    runs : int
+        The search is run as often, after once that is not counted; the median is taken.
+    """
+    units, jumps = find(base, said)
+    times = []
+    for _ in range(runs):
+        begun = time.perf_counter()
+        find(base, said)
+        times.append(time.perf_counter() - begun)
+    made = motion(base, said, units)
+    count = min(len(made), len(said.true))
+    away = made[:count] - said.true[:count]
+    rms = float(np.sqrt((away**2).sum(axis=1).mean())) / base.database.deviation
+    return Result(float(np.median(times)), jumps, rms)
+
+
+def motion(base: Base, said: Line, units: Units) -> NDArray[np.float32]:
+    """Return the motion of paths, joined as the engine joins them, at the database's rate."""
+    pairs = base.pairs.pairs if isinstance(base.pairs, UnitGraph) else base.pairs
+    return join(
+        base.database,
+        units,
+        said.spans,
+        base.database.rate,
+        learnt=base.known.learnt,
+        features=said.heard,
+        opening=base.known.opening,
+        phones=said.labels,
+        pairs=pairs,
+    ).motion
