@@ -207,7 +207,7 @@ def animate(
         A motion database, from :func:`lipwright.motion_takes.build_motion`.
     search : str
         How the motion engine searches: ``"several"``, the mean of several paths, or one path:
-        ``"optimal"``, ``"greedy"``, ``"pq"``.
+        ``"cheapest"``, ``"optimal"``, ``"greedy"``, ``"pq"``.
     controls : str, optional
         What the motion engine gives: ``"recorded"``, the takes' own channels, or ``"poses"``,
         those of the set; what the character can play, where it is not given.

@@ -41,8 +41,8 @@ animation = stack(
         help="The recorded motion that the motion engine searches, see 'motion build'.",
     ),
     click.option(
-        "--search", type=click.Choice(["several", "optimal", "greedy", "pq"]), default="several",
-        show_default=True,
+        "--search", default="several", show_default=True,
+        type=click.Choice(["several", "cheapest", "optimal", "greedy", "pq"]),
         help="How the motion engine searches: the mean of several paths, or one path.",
     ),
     click.option(

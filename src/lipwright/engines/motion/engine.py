@@ -20,6 +20,7 @@ from lipwright.engines.motion.graph import UnitGraph, graph_of
 from lipwright.engines.motion.joining import Joined, join
 from lipwright.engines.motion.learnt import learnt_of
 from lipwright.engines.motion.rasta_plp import Features, rasta_plp
+from lipwright.engines.motion.search import PATHS as MANY
 from lipwright.engines.motion.search import (
     Costs,
     Search,
@@ -38,7 +39,9 @@ from lipwright.phones.reduction import Row
 from lipwright.speech import Speech
 
 FASTEST = 10_000.0
-SEVERAL = "several"
+SEVERAL, CHEAPEST = "several", "cheapest"
+PATHS = {SEVERAL: MANY, CHEAPEST: 1}
+"""Searches by cost alone, ours, and how many paths each finds."""
 SEARCHES: dict[str, Callable[[], Search]] = {
     "optimal": lambda: optimal,
     "greedy": lambda: greedy,
@@ -55,8 +58,8 @@ class MotionEngine:
     ----------
     database : Database
     search : str
-        ``"several"``: the mean of several paths; or one path: ``"optimal"``, ``"greedy"``,
-        ``"pq"``.
+        ``"several"``: the mean of several paths; or one path: ``"cheapest"``,
+        ``"optimal"``, ``"greedy"``, ``"pq"``.
 
     Raises
     ------
@@ -65,8 +68,8 @@ class MotionEngine:
     """
 
     def __init__(self, database: Database, search: str = SEVERAL) -> None:
-        if search not in (SEVERAL, *SEARCHES):
-            raise InputError(f"no search {search!r}", expected=", ".join((SEVERAL, *SEARCHES)))
+        if search not in (*PATHS, *SEARCHES):
+            raise InputError(f"no search {search!r}", expected=", ".join((*PATHS, *SEARCHES)))
         self.database = database
         self.search = search
         self._graph = graph_of(database)
@@ -173,7 +176,7 @@ class MotionEngine:
         sound = None
         if heard is not None:
             sound = wanted_sound(self.database, heard.values, heard.rate, heard.start, spans)
-        if self.search != SEVERAL:
+        if self.search in SEARCHES:
             costs = Costs(self._graph, sound)
             path = find(SEARCHES[self.search](), self._graph, labels, costs, self._class_of)
             told = {"complete": path.complete, "jumps": path.jumps}
@@ -182,7 +185,8 @@ class MotionEngine:
         else:
             wanted, missing = label_indices(self.database, labels, self._class_of)
             lengths = spans[:, 1] - spans[:, 0]
-            units = several(self.database, wanted, lengths, self._classes, sound)
+            count = PATHS[self.search]
+            units = several(self.database, wanted, lengths, self._classes, sound, count)
             told = {"paths": len(units)}
         return units, {
             "database": str(self.database.folder),

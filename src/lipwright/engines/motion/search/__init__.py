@@ -17,9 +17,10 @@ from lipwright.engines.motion.search.path import (
     path_of,
 )
 from lipwright.engines.motion.search.pq import pq
-from lipwright.engines.motion.search.several import several
+from lipwright.engines.motion.search.several import PATHS, several
 
 __all__ = [
+    "PATHS",
     "Costs",
     "Path",
     "Search",

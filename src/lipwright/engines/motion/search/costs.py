@@ -3,7 +3,8 @@
 Distances have no unit: sound is scaled to the database's deviation per parameter, motion to
 its deviation from the mean, so that 1 is the difference between a thing and its average. A
 unit suits by how it sounds and, ours, by how usual its motion is for its phone: an unusual
-one must sound the better. The publication's third criterion alone leaves much to chance. All are weighted and added.
+one must sound the better. The publication's third criterion alone leaves much to chance.
+All are weighted and added.
 """
 
 from __future__ import annotations

@@ -4,7 +4,8 @@ One recording of a phone has a speaker's chance in it: how wide the mouth was th
 mean of several that fit has less of it. Here a jump is a cost like any other, beside how a
 unit sounds, what its neighbours are, and how long it is; each path is the cheapest
 (dynamic programming), and units that a path used cost more for the next. With one path it
-is a search by cost alone; the publication's searches put the fewest jumps first.
+is a search by cost alone, in which a unit that moves unusually costs more: there is no mean
+that would make up for it. The publication's searches put the fewest jumps first.
 """
 
 from __future__ import annotations
@@ -32,6 +33,9 @@ LENGTH = 2.0
 """What a unit costs that is e times as long or short as wanted."""
 JUMP = 0.2
 USED = 1.5
+UNUSUAL = 1.0
+"""What a unit's motion costs, of a lone path, that is as far from the usual as motion is from
+its mean."""
 _SHORTEST = 0.02
 
 
@@ -65,7 +69,7 @@ def several(
     sound : (N, D) float32, optional
         Of the wanted phones, as the database keeps that of its units.
     paths : int
-        How many.
+        How many; of more than one the mean is taken, so that unusual units do not matter.
 
     Returns
     -------
@@ -73,7 +77,15 @@ def several(
     """
     asked = [int(label) for label in wanted]
     phones = [
-        _phone(database, asked, place, float(lengths[place]), classes, sound)
+        _phone(
+            database,
+            asked,
+            place,
+            float(lengths[place]),
+            classes,
+            sound,
+            UNUSUAL if paths == 1 else 0.0,
+        )
         for place in range(len(asked))
     ]
     seams = [_seams(database, one.units, other.units) for one, other in pairwise(phones)]
@@ -93,6 +105,7 @@ def _phone(
     length: float,
     classes: NDArray[np.integer],
     sound: NDArray[np.float32] | None,
+    unusual: float,
 ) -> _Phone:
     label = wanted[place]
     first, last = database.label_first[label : label + 2].tolist()
@@ -109,6 +122,7 @@ def _phone(
     spans = database.spans[units]
     own = np.maximum((spans[:, 1] - spans[:, 0]) / database.rate, _SHORTEST)
     cost += LENGTH * np.abs(np.log(own / max(length, _SHORTEST)))
+    cost += unusual * database.unusual[units]
     if len(cost) > KEPT:
         best = np.argpartition(cost, KEPT)[:KEPT]
         units, cost = units[best], cost[best]
