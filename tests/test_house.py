@@ -14,7 +14,7 @@ LAYERS = [
     ("errors",),
     ("files",),
     ("timeline",),
-    ("phones", "curves"),
+    ("phones", "curves", "markers"),
     ("sound", "sound_files", "sound_headers", "sound_child", "gltf"),
     ("animation", "speech"),
     ("performance",),

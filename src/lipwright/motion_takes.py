@@ -197,7 +197,7 @@ def _resting(
     channels: Sequence[str], rest: RestFace | None
 ) -> tuple[NDArray[np.float64] | None, tuple[str, ...]]:
     """Return the places of a database's markers at rest, and those that do not deform."""
-    from lipwright.engines.motion.markers import marker_channels, marker_labels
+    from lipwright.markers import marker_channels, marker_labels
 
     if rest is None:
         return None, ()

@@ -46,7 +46,7 @@ class Recorded:
     name : str
     channels : tuple of str
         ARKit's names; or coordinates of markers, see
-        :mod:`lipwright.engines.motion.markers`.
+        :mod:`lipwright.markers`.
     values : (T, C) float
         Frame ``k`` holds what is seen at ``start + (k + 0.5) / rate``.
     rate : float

@@ -17,6 +17,7 @@ from lipwright.speech import Speech
 ABOUT = {
     ".json": "lossless, to load again",
     ".csv": "a row per frame",
+    ".c3d": "markers",
     ".glb": "model and animation",
     ".html": "speaking head: open it in a browser",
     ".wav": "sound",

@@ -35,7 +35,7 @@ def _list_voices(ctx: click.Context, param: click.Parameter, value: bool) -> Non
 @click.command()
 @click.argument("text", metavar="TEXT")
 @options.outputs(
-    "Where to: .json .csv .glb .html .wav .tsv .xml .rhubarb.json .dat, or -. May be repeated."
+    "Where to: .json .csv .c3d .glb .html .wav .tsv .xml .rhubarb.json .dat, or -. May be repeated."
 )
 @click.option("--voice", default="en-us", show_default=True, help="Language or voice.")
 @click.option(
@@ -100,7 +100,7 @@ def _with_sound(outputs: tuple[str, ...]) -> tuple[str, ...]:
     suffixes = {Path(path).suffix.lower() for path in outputs}
     from lipwright.export import sound_beside
 
-    without = (".json", ".csv", ".glb", ".tsv", ".xml", ".dat")
+    without = (".json", ".csv", ".c3d", ".glb", ".tsv", ".xml", ".dat")
     silent = [p for p in outputs if Path(p).suffix.lower() in without]
     if not silent or ".wav" in suffixes:
         return outputs
@@ -117,7 +117,7 @@ def _with_sound(outputs: tuple[str, ...]) -> tuple[str, ...]:
 @click.command()
 @options.recording
 @options.outputs(
-    "Where to: .json .csv .glb .html .wav .tsv .xml .rhubarb.json .dat, or -. May be repeated."
+    "Where to: .json .csv .c3d .glb .html .wav .tsv .xml .rhubarb.json .dat, or -. May be repeated."
 )
 @options.animation
 @options.as_json

@@ -20,6 +20,7 @@ from lipwright.performance import Performance
 FORMATS = {
     ".json": "lossless_json",
     ".csv": "csv_table",
+    ".c3d": "c3d_points",
     ".glb": "glb",
     ".html": "html",
     ".wav": "wav_sound",

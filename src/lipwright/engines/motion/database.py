@@ -15,10 +15,10 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
-from lipwright.engines.motion.markers import marker_labels
 from lipwright.engines.motion.storage import HEADER, open_array, read_header
 from lipwright.errors import FileFormatError
 from lipwright.files import convert
+from lipwright.markers import marker_labels
 
 SOUND_PARAMETERS = 9
 """Parameters of sound per frame: the first nine of RASTA-PLP."""

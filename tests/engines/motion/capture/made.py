@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lipwright.engines.motion.capture.motion import Motion
-from lipwright.engines.motion.markers import marker_channels
+from lipwright.markers import marker_channels
 
 Floats = NDArray[np.float64]
 RATE = 120.0

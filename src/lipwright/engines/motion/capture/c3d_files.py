@@ -17,8 +17,8 @@ import numpy as np
 
 from lipwright.engines.motion.capture.c3d_header import MOST_FRAMES, check_c3d
 from lipwright.engines.motion.capture.motion import Floats, Motion
-from lipwright.engines.motion.markers import marker_channels
 from lipwright.errors import FileFormatError, MissingExtraError
+from lipwright.markers import marker_channels
 
 UNITS = {"mm": 1e-3, "cm": 1e-2, "dm": 0.1, "m": 1.0, "in": 0.0254, "inch": 0.0254}
 _NO_LABEL = re.compile(r"\s*|\*\d+|(unlabell?ed|uname|unnamed|unknown)?[\s_*:-]*\d*", re.IGNORECASE)

@@ -26,8 +26,8 @@ from lipwright.engines.motion.capture.report import CleaningReport, RestFace
 from lipwright.engines.motion.capture.rigid import rigid_markers
 from lipwright.engines.motion.capture.spikes import find_spikes
 from lipwright.engines.motion.capture.swaps import Swap, find_swaps
-from lipwright.engines.motion.markers import marker_channels
 from lipwright.errors import InputError, did_you_mean
+from lipwright.markers import marker_channels
 
 LONGEST_GAP = 1.0
 """Seconds without a marker that are filled; one lost for longer is left out."""
