@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import csv
+import io
 import json
+from collections.abc import Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -15,6 +18,7 @@ from lipwright.cli.report import note
 
 if TYPE_CHECKING:
     from lipwright.engines.motion.info import Info
+    from lipwright.motion_takes import TakeReport
 
 SHOWN = 12
 
@@ -29,6 +33,10 @@ _reading = options.stack(
     click.option(
         "--workers", type=click.IntRange(1), metavar="N",
         help="Takes at once; one for each processor by default.",
+    ),
+    click.option(
+        "--report", type=click.Path(path_type=Path), metavar="FILE.csv",
+        help="A table of what became of each take.",
     ),
     options.as_json,
 )  # fmt: skip
@@ -55,37 +63,68 @@ def motion() -> None:
     help="Merge units of like motion into so many nodes.",
 )  # fmt: skip
 @_reading
-def build(takes: Path, database: Path, as_json: bool, **how: Any) -> None:
+def build(takes: Path, database: Path, report: Path | None, as_json: bool, **how: Any) -> None:
     """Build a database from a folder of recordings.
 
     TAKES holds motion (NAME.csv of blendshapes, NAME.c3d of markers) and beside it by name
     sound and words (NAME.txt, or --text), or labels. A run that was stopped is gone on with.
     """
-    _build(takes, database, as_json, **how)
+    _build(takes, database, report, as_json, **how)
 
 
 @motion.command()
 @click.argument("takes", type=click.Path(path_type=Path), metavar="TAKES")
 @click.argument("database", type=click.Path(path_type=Path), metavar="DB")
 @_reading
-def add(takes: Path, database: Path, as_json: bool, **how: Any) -> None:
+def add(takes: Path, database: Path, report: Path | None, as_json: bool, **how: Any) -> None:
     """Add a folder of recordings to a database."""
-    _build(takes, database, as_json, add=True, **how)
+    _build(takes, database, report, as_json, add=True, **how)
 
 
-def _build(takes: Path, database: Path, as_json: bool, **how: Any) -> None:
+def _build(takes: Path, database: Path, report: Path | None, as_json: bool, **how: Any) -> None:
+    from lipwright.files import check_target, write_atomically
     from lipwright.motion_takes import build_motion
 
-    with progress("reading takes") as report:
-        built = build_motion(takes, database, progress=report, **how)
+    if report is not None:
+        check_target(report)
+    with progress("reading takes") as show:
+        built = build_motion(takes, database, progress=show, **how)
+    if report is not None:
+        write_atomically(report, _table(built.reports))
     if as_json:
         click.echo(json.dumps(asdict(built)))
         return
-    click.echo(f"{database}: {built.takes} takes")
+    click.echo(f"{database}: {built.takes} takes{_kept(built.reports)}")
     for text in built.notes:
         note(text)
     for text in built.refused:
         note(f"left out: {text}")
+
+
+def _kept(reports: Sequence[TakeReport]) -> str:
+    """Say how much of their variance is kept, and of which take least."""
+    used = [one for one in reports if not one.refused]
+    if not used:
+        return ""
+    least = min(used, key=lambda one: one.variance)
+    seconds = sum(one.seconds for one in used)
+    mean = sum(one.variance * one.seconds for one in used) / seconds
+    return (
+        f" ({seconds / 60:.1f} min, {100 * mean:.1f} % of their variance kept; "
+        f"least of {least.name}: {100 * least.variance:.1f} %)"
+    )
+
+
+def _table(reports: Sequence[TakeReport]) -> bytes:
+    """Return reports as a table, a row for each take."""
+    text = io.StringIO(newline="")
+    writer = csv.writer(text, lineterminator="\r\n")
+    writer.writerow(("take", "used", "seconds", "phones", "gaps", "variance", "notes"))
+    for one in reports:
+        notes = one.refused or "; ".join(one.notes)
+        figures = (one.seconds, one.phones, one.gaps, one.variance)
+        writer.writerow((one.name, "no" if one.refused else "yes", *figures, notes))
+    return text.getvalue().encode()
 
 
 @motion.command()
