@@ -10,18 +10,42 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lipwright.engines.motion.database import Database
-from lipwright.engines.motion.graph import Graph, UnitGraph
+from lipwright.engines.motion.graph import Graph
 from lipwright.engines.motion.joining import join
 from lipwright.engines.motion.learnt import Known
 from lipwright.engines.motion.rasta_plp import Features
-from lipwright.engines.motion.search import Costs, Search, label_indices, several, wanted_sound
+from lipwright.engines.motion.search import (
+    PATHS,
+    Costs,
+    Search,
+    label_indices,
+    several,
+    wanted_sound,
+)
 from lipwright.engines.motion.splicing import PairTable
 from lipwright.phones import load_reduction
 
 Floats = NDArray[np.float64]
 Units = NDArray[np.int64]
-Finding = Callable[["Base", "Line"], tuple[Units, int]]
-"""Finds units, one path or several, for a line; and says how many jumps the first has."""
+Finding = Callable[["Base", "Line"], "Found"]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Found:
+    """Units for a line, (N,), or several paths of them, (M, N).
+
+    Parameters
+    ----------
+    units : (N,) or (M, N) int
+    jumps : int
+        Of the first path.
+    complete : bool
+        Whether the search came to its end in its time.
+    """
+
+    units: Units
+    jumps: int
+    complete: bool = True
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -30,7 +54,7 @@ class Base:
 
     database: Database
     graph: Graph
-    pairs: PairTable | UnitGraph
+    pairs: PairTable
     known: Known
 
 
@@ -80,23 +104,31 @@ def line(left_out: Database, first: int, count: int) -> Line:
 def one_path(search: Search) -> Finding:
     """Return what finds a single path by one of the publication's searches, or ours."""
 
-    def find(base: Base, said: Line) -> tuple[Units, int]:
+    def find(base: Base, said: Line) -> Found:
         wanted, sound = _wanted(base.database, said)
         path = search(base.graph, wanted, Costs(base.graph, sound))
-        return path.units, path.jumps
+        return Found(path.units, path.jumps, path.complete)
 
     return find
 
 
-def several_paths(base: Base, said: Line) -> tuple[Units, int]:
-    """Find several paths whose mean is taken; the first one's jumps are counted."""
+def several_paths(base: Base, said: Line) -> Found:
+    """Find several paths whose mean is taken."""
+    return _by_cost(base, said, PATHS)
+
+
+def cheapest_path(base: Base, said: Line) -> Found:
+    """Find the one path that costs least."""
+    return _by_cost(base, said, 1)
+
+
+def _by_cost(base: Base, said: Line, paths: int) -> Found:
     wanted, sound = _wanted(base.database, said)
-    classes = _classes(base.database)
-    units = several(base.database, wanted, np.diff(said.spans)[:, 0], classes, sound)
-    take = base.database.take
-    first = units[0]
+    classes, lengths = _classes(base.database), np.diff(said.spans)[:, 0]
+    units = several(base.database, wanted, lengths, classes, sound, paths)
+    first, take = units[0], base.database.take
     follows = (first[1:] == first[:-1] + 1) & (take[first[1:]] == take[first[:-1]])
-    return units, int((~follows).sum())
+    return Found(units, int((~follows).sum()))
 
 
 def _wanted(database: Database, said: Line) -> tuple[Units, NDArray[np.float32]]:
@@ -127,6 +159,7 @@ class Result:
     seconds: float
     jumps: int
     rms: float
+    complete: bool = True
 
 
 def tried(base: Base, said: Line, find: Finding, runs: int = 1) -> Result:
@@ -138,24 +171,24 @@ def tried(base: Base, said: Line, find: Finding, runs: int = 1) -> Result:
     said : Line
     find : function
     runs : int
-        The search is run as often, after once that is not counted; the median is taken.
+        The search is run as often; the median is taken.
     """
-    units, jumps = find(base, said)
-    times = []
-    for _ in range(runs):
+    begun = time.perf_counter()
+    found = find(base, said)
+    times = [time.perf_counter() - begun]
+    for _ in range(runs - 1):
         begun = time.perf_counter()
         find(base, said)
         times.append(time.perf_counter() - begun)
-    made = motion(base, said, units)
+    made = motion(base, said, found.units)
     count = min(len(made), len(said.true))
     away = made[:count] - said.true[:count]
     rms = float(np.sqrt((away**2).sum(axis=1).mean())) / base.database.deviation
-    return Result(float(np.median(times)), jumps, rms)
+    return Result(float(np.median(times)), found.jumps, rms, found.complete)
 
 
 def motion(base: Base, said: Line, units: Units) -> NDArray[np.float32]:
     """Return the motion of paths, joined as the engine joins them, at the database's rate."""
-    pairs = base.pairs.pairs if isinstance(base.pairs, UnitGraph) else base.pairs
     return join(
         base.database,
         units,
@@ -165,5 +198,5 @@ def motion(base: Base, said: Line, units: Units) -> NDArray[np.float32]:
         features=said.heard,
         opening=base.known.opening,
         phones=said.labels,
-        pairs=pairs,
+        pairs=base.pairs,
     ).motion
