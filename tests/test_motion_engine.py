@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shutil
 from pathlib import Path
 
 import numpy as np
@@ -11,7 +12,11 @@ import pytest
 from lipwright import pipeline
 from lipwright.animation import Animation
 from lipwright.cli import main
+from lipwright.gltf import read_gltf
 from lipwright.motion_takes import build_motion
+from lipwright.phones import PhoneTrack
+from lipwright.speech import Speech
+from lipwright.timeline import Interval, Tier
 from tests.engines.motion.takes import LINES, RATE, record, shapes
 
 
@@ -146,8 +151,103 @@ def test_a_take_that_cannot_be_used_is_left_out(
         assert reason in told.err
 
 
+NOTE = (
+    "note: the database is synthetic: made by the bigram engine; build one from recordings with "
+    "'lipwright motion build'\n"
+)
+
+
+@pytest.mark.parametrize("given", [[], ["--database", "synthetic"]])
+def test_without_a_database_the_built_in_one_is_used_and_said_to_be_synthetic(
+    given: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    output = str(tmp_path / "a.json")
+    assert main(["say", "Hello.", "--engine", "motion", *given, "-o", output]) == 0
+    assert capsys.readouterr().err == NOTE
+    made = Animation.load(tmp_path / "a.json")
+    assert (made.engine, made.report["database"]) == ("motion", "synthetic")
+    assert made.control("open").max() > 0.2
+    assert "jawOpen" not in made.controls
+
+
+def test_a_folder_that_is_called_synthetic_goes_first(
+    database: Path,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert main(["motion", "info", "synthetic"]) == 0
+    told = capsys.readouterr()
+    assert "units: 1" in told.out
+    assert told.err == NOTE
+    shutil.copytree(database, tmp_path / "synthetic")
+    given = ["--engine", "motion", "--database", "synthetic", "-o", "a.json"]
+    assert main(["say", "My map.", *given]) == 0
+    assert capsys.readouterr().err == ""
+    assert "jawOpen" in Animation.load(tmp_path / "a.json").controls
+
+
+@pytest.mark.parametrize(
+    ("character", "suffixes"),
+    [
+        ("head", "html glb csv json tsv"),
+        ("crab", "html glb csv json tsv"),
+        ("rhubarb", "html csv json tsv"),
+        ("preston_blair", "html json dat"),
+    ],
+)
+def test_every_character_plays_a_database_of_poses(
+    character: str, suffixes: str, tmp_path: Path
+) -> None:
+    names = [f"a.{suffix}" for suffix in suffixes.split()]
+    outputs = [part for name in names for part in ("-o", str(tmp_path / name))]
+    given = ["--engine", "motion", "--character", character]
+    assert main(["say", "My five boats moved.", *given, *outputs]) == 0
+    assert all((tmp_path / name).stat().st_size for name in names)
+    if "tsv" in suffixes:
+        shapes = [row.split()[1] for row in (tmp_path / "a.tsv").read_text().splitlines()]
+        assert shapes.count("A") >= 3  # m, b, m
+        assert len(set(shapes)) >= 4
+    if "glb" in suffixes:
+        assert read_gltf(tmp_path / "a.glb").items("animations")
+
+
+LINES_TO_CLOSE = (
+    "Of my people, five moved off before Friday.",
+    "If Ben moves, improve it even more.",
+    "Five brave men have both been left before breakfast.",
+    "Peter Piper picked a peck of pickled peppers.",
+)
+
+
+@pytest.mark.parametrize("search", ["several", "optimal", "greedy"])
+@pytest.mark.parametrize("rate", [24.0, 30.0, 60.0])
+def test_lips_close_and_meet_the_teeth_in_a_frame(search: str, rate: float) -> None:
+    for text in LINES_TO_CLOSE:
+        speech = pipeline.say(text)
+        made = pipeline.animate(speech, engine="motion", search=search, rate=rate).animation
+        for phone in speech.phones:
+            pose = {**dict.fromkeys("pbm", "PBM"), **dict.fromkeys("fv", "FV")}.get(phone.label)
+            if pose is None:
+                continue
+            away = np.maximum(phone.start - made.times, made.times - phone.end)
+            near = away <= max(0.0, float(away.min())) + 1e-9
+            assert made.control(pose)[near].max() >= 0.9, (text, phone)
+
+
+def test_a_face_rests_while_nothing_is_said() -> None:
+    rows = [
+        Interval(*row)
+        for row in (("sil", 0, 1.5), ("b", 1.5, 1.58), ("aa", 1.58, 1.8), ("sil", 1.8, 3.5))
+    ]
+    made = pipeline.animate(Speech(PhoneTrack(Tier(tuple(rows)))), engine="motion").animation
+    assert np.abs(made.at(np.linspace(0.1, 1.2, 20))).max() < 0.06
+    assert np.abs(made.at(np.linspace(2.1, 3.4, 20))).max() < 0.06
+    assert made.at([1.7])[0, made.controls.index("open")] > 0.3
+
+
 BAD = {
-    "no database": (["--engine", "motion"], "no database for the motion engine"),
     "no such database": (["--engine", "motion", "--database", "none"], "none: no such folder"),
     "no database there": (["--engine", "motion", "--database", "."], "lipwright: "),
     "another engine": (["--database", "none"], "a motion database, with the bigram engine"),

@@ -147,11 +147,6 @@ def check_engine(engine: str, database: str | Path | None, of_bigrams: Sequence[
         )
     if engine != "motion":
         return
-    if database is None:
-        raise InputError(
-            "no database for the motion engine",
-            cure="build one with 'lipwright motion build', and give it with --database",
-        )
     if any(given is not None for given in of_bigrams):
         raise InputError(
             "overrides, a reduction or edits, with the motion engine",
@@ -159,15 +154,21 @@ def check_engine(engine: str, database: str | Path | None, of_bigrams: Sequence[
         )
 
 
-def motion_engine(database: str | Path, search: str = "several") -> MotionEngine:
-    """Return the engine for a motion database; made once, and anew when it is built anew."""
-    header = file_version(str(Path(database) / "database.json"))
-    return _motion_engine(str(database), search, header)
+def motion_engine(database: str | Path | None = None, search: str = "several") -> MotionEngine:
+    """Return the engine for a motion database; made once, and anew when it is built anew.
+
+    Without a database it is the built-in one, see :mod:`lipwright.engines.motion.synthetic`.
+    """
+    from lipwright.engines.motion.synthetic import FOLDER, NAME, database_folder
+
+    folder = database_folder(database)
+    header = file_version(str(folder / "database.json"))
+    return _motion_engine(str(folder), search, header, NAME if folder == FOLDER else "")
 
 
 @lru_cache(maxsize=4)
-def _motion_engine(database: str, search: str, version: object) -> MotionEngine:
+def _motion_engine(database: str, search: str, version: object, name: str) -> MotionEngine:
     from lipwright.engines.motion.database import open_database
     from lipwright.engines.motion.engine import MotionEngine
 
-    return MotionEngine(open_database(database), search)
+    return MotionEngine(open_database(database), search, name)

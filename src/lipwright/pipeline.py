@@ -183,7 +183,7 @@ def animate(
     speech : Speech
         From :func:`say`, :func:`align`, :func:`recognise` or :func:`from_labels`.
     engine : str
-        ``"bigram"``, or ``"motion"``, which needs a ``database``.
+        ``"bigram"``, or ``"motion"``, which searches a ``database``.
     bigram_set : str or path, optional
         A set that comes with Lipwright, or a file; else the character's, else English. With
         the motion engine: in whose poses its motion is told.
@@ -204,7 +204,8 @@ def animate(
     rate : float
         Frames per second.
     database : path, optional
-        A motion database, from :func:`lipwright.motion_takes.build_motion`.
+        A motion database, from :func:`lipwright.motion_takes.build_motion`; else the built-in
+        synthetic one.
     search : str
         How the motion engine searches: ``"several"``, the mean of several paths, or one path:
         ``"cheapest"``, ``"optimal"``, ``"greedy"``, ``"pq"``.
@@ -233,7 +234,7 @@ def animate(
     check_engine(engine, database, (overrides, reduction, edits))
     shapes = choose(character, pictures, mapping, without=without, fps=fps, on=on, hold=hold)
     own = ""
-    if database is not None:
+    if engine == "motion":
         mover = motion_engine(database, search)
         recorded = mover.animate(speech, rate)
         animation = act(recorded, speech, mover.database, character, mapping, controls, bigram_set)

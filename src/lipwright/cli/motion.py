@@ -134,12 +134,16 @@ def info(database: Path, as_json: bool) -> None:
     """Say what a database holds, and what is thin in it."""
     from lipwright.engines.motion.database import open_database
     from lipwright.engines.motion.info import info as count
+    from lipwright.engines.motion.synthetic import database_folder
 
-    found = count(open_database(database))
+    held = open_database(database_folder(database))
+    found = count(held)
     if as_json:
         click.echo(json.dumps(asdict(found)))
         return
     click.echo(_text(database, found))
+    if held.about:
+        note(held.about)
 
 
 def _text(database: Path, found: Info) -> str:

@@ -38,7 +38,8 @@ animation = stack(
     ),
     click.option(
         "--database", type=click.Path(path_type=Path), metavar="DB",
-        help="The recorded motion that the motion engine searches, see 'motion build'.",
+        help="The recorded motion that the motion engine searches, see 'motion build'.  "
+        "[default: synthetic, which is made by code]",
     ),
     click.option(
         "--search", default="several", show_default=True,

@@ -47,6 +47,8 @@ def tell(performance: Performance, written: Sequence[str], *, as_json: bool) -> 
     stand_ins = animation.report.get("stand_ins", [])
     if stand_ins:
         note(f"the set lacks {', '.join(stand_ins)}: made from single phones")
+    if about := animation.report.get("about_database"):
+        note(about)
     lacking = animation.report.get("nearest_phones", {})
     if lacking:
         pairs = ", ".join(f"{phone} as {used}" for phone, used in lacking.items())

@@ -105,6 +105,12 @@ def test_adding_nothing_changes_nothing(tmp_path: Path) -> None:
     assert (tmp_path / "db" / "database.json").read_bytes() == before
 
 
+def test_what_is_to_be_told_of_it_stays_when_takes_are_added(tmp_path: Path) -> None:
+    build(tmp_path / "db", [prepared("abc")], about="made by code")
+    assert append(tmp_path / "db", [prepared("cab")]).about == "made by code"
+    assert build(tmp_path / "other", [prepared("abc")]).about == ""
+
+
 def test_what_it_was_built_from_comes_back(tmp_path: Path) -> None:
     for old, back in zip(TAKES, takes_of(build(tmp_path / "db", TAKES)), strict=True):
         assert (back.name, back.cut.labels, back.start) == (old.name, old.cut.labels, old.start)

@@ -135,3 +135,29 @@ def test_opening_knows_the_names_of_arkit_in_any_case() -> None:
     assert opening is not None
     assert opening(np.array([[0.6, 0.2, 0.4, 1.0]]))[0] == pytest.approx(0.5)
     assert opening_of(["chin.x", "chin.y"]) is None
+
+
+def test_of_poses_each_kind_closes_by_its_own() -> None:
+    opening = opening_of(["PBM", "W", "open", "FV"])
+    assert opening is not None
+    apart = opening(np.array([[1.0, 0.5, 0.1, 0.0], [0.0, 0.5, 0.1, 0.8]]))
+    np.testing.assert_allclose(apart, [[-0.9, 0.1], [0.1, -0.7]])
+    assert opening_of(["open", "PBM"]) is None
+
+
+@pytest.mark.parametrize("rate", [24.0, 30.0, 60.0])
+def test_neighbours_that_close_in_two_ways_do_not_undo_each_other(rate: float) -> None:
+    kinds = (
+        closures.Closed(("p", "b", "m"), -0.95, np.array([[0.0, 1.0, 0.0]])),
+        closures.Closed(("f", "v"), -0.95, np.array([[0.0, 0.0, 1.0]])),
+    )
+    closing = Closing(kinds, np.full(3, 20.0), 25.0)
+    opening = opening_of(["open", "PBM", "FV"])
+    assert opening is not None
+    frames = np.tile([0.4, 0.3, 0.3], (round(rate), 1))
+    phones = [("m", 0.30, 0.37), ("f", 0.37, 0.45), ("b", 0.45, 0.53), ("ah", 0.53, 0.6)]
+    assert close(frames, rate, phones, closing, opening) == 3
+    times = (np.arange(len(frames)) + 0.5) / rate
+    for label, start, end in phones[:3]:
+        inside = (times >= start) & (times < end)
+        assert opening(frames[inside])[:, int(label == "f")].min() <= -0.95 + 1e-9, label

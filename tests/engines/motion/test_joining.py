@@ -132,6 +132,32 @@ def test_a_splice_takes_little_of_a_long_silence() -> None:
     np.testing.assert_allclose(found.components[after:], alone.components[after - 6 :], atol=1e-6)
 
 
+def test_a_long_silence_keeps_its_pace_next_to_speech_and_all_but_holds() -> None:
+    data = Tiny.made()
+    found = join(data, range(5), laid([68, 9, 6, 10, 47], 60), 60.0)
+    # The first rest is held before it opens, the last after it has closed.
+    np.testing.assert_allclose(found.source[60:100], np.arange(40), atol=1.0)
+    assert found.source[59] < 0.5
+    assert found.source[100] > 38.5
+    assert (np.diff(found.source) > 0).all()
+
+
+def test_a_pause_holds_its_middle() -> None:
+    data = Tiny.of([[("aa", 9), ("sil", 10), ("iy", 9)]])
+    found = join(data, range(3), laid([9, 50, 9], 60), 60.0)
+    np.testing.assert_allclose(found.source[:14], np.arange(14), atol=0.5)
+    np.testing.assert_allclose(found.source[14:54], 13.5, atol=0.5)
+    np.testing.assert_allclose(found.source[54:], np.arange(14, 28), atol=0.5)
+
+
+def test_of_a_long_rest_as_much_is_taken_as_a_short_one_needs() -> None:
+    data = Tiny.of([[("sil", 60), ("aa", 12), ("sil", 60)]])
+    found = join(data, range(3), laid([30, 12, 6], 60), 60.0)
+    np.testing.assert_allclose(found.source[:42], np.arange(30, 72), atol=3.5)
+    # Shorter than a mouth needs to close: it closes faster.
+    assert found.source[-1] == pytest.approx(72 + 60 * REACH, abs=7)
+
+
 def test_a_unit_between_two_jumps_goes_over_at_both_ends() -> None:
     data = Tiny.made()
     found = join(data, [1, 7, 3], laid([9, 5, 10], 60), 1200.0)

@@ -28,6 +28,7 @@ def build(
     settings: Settings | None = None,
     rest: NDArray[np.floating] | None = None,
     rigid: Sequence[str] = (),
+    about: str = "",
 ) -> Database:
     """Build a database; one that is there stays whole until the new one is complete.
 
@@ -41,6 +42,8 @@ def build(
         The face at rest that was subtracted from the channels; zeros where not given.
     rigid : sequence of str
         Of markers, those that do not deform.
+    about : str
+        What whoever animates with it is told.
 
     Raises
     ------
@@ -62,6 +65,8 @@ def build(
     header, arrays = assembled(ready, settings)
     if rigid:
         header["rigid"] = list(rigid)
+    if about:
+        header["about"] = about
     write(place, header, {**arrays, "rest": rest})
     return open_database(place)
 
@@ -82,7 +87,7 @@ def append(folder: str | Path, takes: Iterable[Prepared]) -> Database:
         return database
     old = takes_of(database)
     rest = np.array(database.rest)
-    return build(folder, [*old, *new], database.settings, rest, database.rigid)
+    return build(folder, [*old, *new], database.settings, rest, database.rigid, database.about)
 
 
 def takes_of(database: Database) -> list[Prepared]:

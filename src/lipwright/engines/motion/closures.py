@@ -5,12 +5,14 @@ half of them are at most as open as the *level*. A closure that stays above it i
 its own least opening, toward the recorded closed frame that is most like it, just as far as
 the level asks. The pull rises and falls as a raised cosine, as wide as natural speed needs:
 no channel moves faster than nearly all recorded motion does, or than it did before. What
-is closed already is not touched.
+is closed already is not touched: a pull ends where a closure of the other kind is at its best.
 
 All of it is done on channels as they were recorded, not on components: what components
 leave out is little motion, but it is what parts the lips or lets them meet.
 
-Opening is whatever the caller measures on a motion; for ARKit names it is known here.
+Opening is whatever the caller measures on a motion, once, or for each kind of closure what
+lies between the parts that it brings together. For ARKit's names and for FaceFX's poses it is
+known here.
 """
 
 from __future__ import annotations
@@ -25,7 +27,8 @@ from lipwright.engines.motion.recorded import Ints, Recorded
 
 Floats = NDArray[np.float64]
 Opening = Callable[[Floats], NDArray[np.floating]]
-"""How far the lips are apart in each frame of (T, C): (T,), less is more closed."""
+"""How far the lips are apart in each frame of (T, C): (T,), less is more closed; or (T, 2): how
+far the lips are apart, and how far the lower lip is from the upper teeth, as :data:`KINDS`."""
 
 KINDS = (("p", "b", "m"), ("f", "v"))
 EXAMPLES = 48  # closed frames that are kept of each kind
@@ -39,6 +42,7 @@ EDGE = 0.15
 """Share of a phone at either end in which its closure is not looked for."""
 QUICK = 99.9
 """Percentile of recorded speeds that counts as the greatest natural one."""
+_POSES = ("open", "pbm", "fv")  # what opens, and what makes each kind of closure
 _TRIED = 17  # strengths of a pull that are tried at once, twice
 
 
@@ -80,21 +84,28 @@ class Closing:
 
 
 def opening_of(channels: Sequence[str]) -> Opening | None:
-    """Return how ARKit shapes open the mouth; None where there is no ``jawOpen``.
+    """Return how shapes of ARKit, or FaceFX's poses, open the mouth; None for other names.
 
-    The jaw parts the lips, ``mouthClose`` brings them together again, and each lip is drawn
-    away by its own shapes.
+    Of ARKit's, the jaw parts the lips, ``mouthClose`` brings them together again, and each
+    lip is drawn away by its own shapes. Of the poses, ``open`` parts what each closure brings
+    together: ``PBM`` the lips, ``FV`` the lower lip and the upper teeth. A closure is as
+    complete as its own pose is: one lip that leaves the teeth does not close the lips.
 
     Examples
     --------
     >>> opening = opening_of(["jawOpen", "mouthClose"])
     >>> round(float(opening(np.array([[0.5, 0.4]]))[0]), 9)
     0.1
+    >>> opening_of(["open", "PBM", "FV"])(np.array([[0.25, 0.0, 1.0]])).tolist()
+    [[0.25, -0.75]]
     """
     weights = {"jawopen": 1.0, "mouthclose": -1.0}
     for lip in ("mouthlowerdown", "mouthupperup"):
         weights |= {lip + side: 0.25 for side in ("left", "right")}
     names = [name.casefold() for name in channels]
+    if set(_POSES) <= set(names):
+        parts, *closing = (names.index(name) for name in _POSES)
+        return lambda motion: motion[:, [parts]] - motion[:, closing]
     if "jawopen" not in names:
         return None
     row = np.array([weights.get(name, 0.0) for name in names])
@@ -147,19 +158,33 @@ def close(
         How many phones had to be pulled.
     """
     kinds = {label: kind for kind in closing.kinds for label in kind.labels}
+    asked = [
+        (kinds[name], _inside(start, end, rate, len(motion)), min(HOLD, 0.2 * (end - start)))
+        for label, start, end in phones
+        if (name := label.casefold()) in kinds
+    ]
     pulled = 0
-    for label, start, end in phones:
-        kind = kinds.get(label.casefold())
-        if kind is None:
+    for place, (kind, near, hold) in enumerate(asked):
+        middle, least = _least(motion, near, kind, opening)
+        if least <= kind.level:
             continue
-        near = _inside(start, end, rate, len(motion))
-        openings = opening(motion[near])
-        best = int(openings.argmin())
-        if openings[best] > kind.level:
-            hold = min(HOLD, 0.2 * (end - start))
-            _pull(motion, rate, near.start + best, kind, closing, opening, hold)
-            pulled += 1
+        # What closes before and behind it in the other way must not be undone.
+        beside = [
+            next((one for one in some if one[0] is not kind), None)
+            for some in (asked[place::-1], asked[place:])
+        ]
+        stops = [_least(motion, one[1], one[0], opening)[0] if one else None for one in beside]
+        room = [np.inf if stop is None else abs(stop - middle) / rate for stop in stops]
+        _pull(motion, rate, middle, kind, closing, opening, hold, room)
+        pulled += 1
     return pulled
+
+
+def _least(motion: Floats, near: slice, kind: Closed, opening: Opening) -> tuple[int, float]:
+    """Return the frame in which a closure is most closed, and how open it is there."""
+    openings = _apart(opening, motion[near], kind.labels)
+    best = int(openings.argmin())
+    return near.start + best, float(openings[best])
 
 
 def evenly(items: Ints, count: int) -> Ints:
@@ -169,12 +194,18 @@ def evenly(items: Ints, count: int) -> Ints:
     return items[np.linspace(0, len(items) - 1, count).astype(np.int64)]
 
 
+def _apart(opening: Opening, motion: Floats, labels: tuple[str, ...]) -> NDArray[np.floating]:
+    """How far apart is what a kind of phone brings together, in each frame."""
+    found = opening(motion)
+    return found if found.ndim == 1 else found[:, KINDS.index(labels)]
+
+
 def _learn_kind(data: Recorded, labels: tuple[str, ...], units: Ints, opening: Opening) -> Closed:
     first, count = data.first[units], data.last[units] - data.first[units]
     starts = np.cumsum(count) - count
     rows = np.repeat(first - starts, count) + np.arange(count.sum())
     frames = np.asarray(data.values[rows], np.float64)
-    openings = opening(frames)
+    openings = _apart(opening, frames, labels)
     least = np.minimum.reduceat(openings, starts)
     level = float(np.median(least))
     # The first frame of each unit that is its least; of those, the ones that are closed.
@@ -216,17 +247,26 @@ def _pull(
     closing: Closing,
     opening: Opening,
     hold: float,
+    room: Sequence[float],
 ) -> None:
-    """Pull the frames around ``middle`` until that one is closed."""
+    """Pull the frames around ``middle`` until that one is closed.
+
+    ``hold`` is how long it lasts in full to either side, ``room`` the seconds before and
+    behind it within which it has to end.
+    """
     open_face = motion[middle].copy()
     apart = ((kind.frames - open_face) ** 2).sum(axis=1)
     pull = kind.frames[apart.argmin()] - open_face
-    pull *= _strength(open_face, pull, kind.level, opening)
+    pull *= _strength(open_face, pull, kind, opening)
     lag = max(1, round(rate / closing.rate))
     for width in WIDTHS:
         reach = int(width * rate)
         low, high = max(middle - reach, 0), min(middle + reach + 1, len(motion))
-        away = (np.abs(np.arange(low, high) - middle) / rate - hold) / (width - hold)
+        frames = np.arange(low, high)
+        ends = np.minimum(np.where(frames < middle, room[0], room[1]), width)
+        # At the very frame of another closure there is no room; that frame alone is shared.
+        held = np.minimum(hold, 0.5 * ends)
+        away = (np.abs(frames - middle) / rate - held) / np.maximum(ends - held, 1e-9)
         share = 0.5 + 0.5 * np.cos(np.pi * np.clip(away, 0.0, 1.0))
         around = slice(max(low - lag, 0), min(high + lag, len(motion)))
         before = motion[around]
@@ -237,13 +277,13 @@ def _pull(
     motion[around] = after
 
 
-def _strength(face: Floats, pull: Floats, level: float, opening: Opening) -> float:
+def _strength(face: Floats, pull: Floats, kind: Closed, opening: Opening) -> float:
     """Return the least share of a pull, 0..1, that brings the opening down to the level."""
     low, high = 0.0, 1.0
     for _ in range(2):
         shares = np.linspace(low, high, _TRIED)
-        openings = opening(face + shares[:, None] * pull)
-        enough = np.flatnonzero(openings <= level)
+        openings = _apart(opening, face + shares[:, None] * pull, kind.labels)
+        enough = np.flatnonzero(openings <= kind.level)
         if not len(enough):
             return high
         low, high = float(shares[max(enough[0] - 1, 0)]), float(shares[enough[0]])

@@ -72,6 +72,7 @@ class Header(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     total_variance: float
     settings: Settings
     rigid: tuple[str, ...] = ()
+    about: str = ""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -155,6 +156,8 @@ class Database:
         Where units were clustered.
     rigid : tuple of str
         Of markers, those that do not deform: takes that are added are laid on them.
+    about : str
+        What whoever animates with it is told.
     """
 
     folder: Path
@@ -192,6 +195,7 @@ class Database:
     sound_scale: NDArray[np.float32]
     merged: Merged | None
     rigid: tuple[str, ...] = ()
+    about: str = ""
 
     @property
     def markers(self) -> tuple[str, ...]:
@@ -251,6 +255,7 @@ def database_of(folder: Path, header: Header, arrays: Mapping[str, NDArray[Any]]
         total_variance=header.total_variance,
         merged=merged,
         rigid=header.rigid,
+        about=header.about,
         **own,
     )
 

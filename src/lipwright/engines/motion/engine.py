@@ -60,6 +60,8 @@ class MotionEngine:
     search : str
         ``"several"``: the mean of several paths; or one path: ``"cheapest"``,
         ``"optimal"``, ``"greedy"``, ``"pq"``.
+    name : str
+        What reports call the database; its folder where it is not given.
 
     Raises
     ------
@@ -67,11 +69,12 @@ class MotionEngine:
         If there is no such search.
     """
 
-    def __init__(self, database: Database, search: str = SEVERAL) -> None:
+    def __init__(self, database: Database, search: str = SEVERAL, name: str = "") -> None:
         if search not in (*PATHS, *SEARCHES):
             raise InputError(f"no search {search!r}", expected=", ".join((*PATHS, *SEARCHES)))
         self.database = database
         self.search = search
+        self.name = name or str(database.folder)
         self._graph = graph_of(database)
         self._known = learnt_of(database)
         plain = isinstance(self._graph, UnitGraph)
@@ -189,7 +192,8 @@ class MotionEngine:
             units = several(self.database, wanted, lengths, self._classes, sound, count)
             told = {"paths": len(units)}
         return units, {
-            "database": str(self.database.folder),
+            "database": self.name,
+            **({"about_database": self.database.about} if self.database.about else {}),
             "search": self.search,
             **told,
             "nearest_phones": {one.wanted: one.used for one in missing},

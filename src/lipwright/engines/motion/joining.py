@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -27,6 +28,7 @@ from lipwright.engines.motion.recorded import (
     take_bounds,
     takes,
 )
+from lipwright.engines.motion.rests import rest
 from lipwright.engines.motion.splicing import (
     Course,
     Pairs,
@@ -177,7 +179,7 @@ def join(
     start, end = float(held[0, 0]), float(held[-1, 1])
     count = max(1, round((end - start) * rate))
     times: Floats = start + (np.arange(count, dtype=np.float64) + 0.5) / rate
-    found = pairs or PairTable(data)
+    found = cache(pairs or PairTable(data))  # paths of one line ask for the same pairs
     courses = _courses(data, paths, held, phones, features)
     drawn = [_drawn(data, course, times, found) for course in courses]
     frames: Floats = np.mean([one.frames for one in drawn], axis=0)
@@ -290,6 +292,13 @@ def _sources(data: Recorded, course: Course, times: Floats) -> tuple[Ints, Float
     knot = np.clip(place.astype(np.int64), 0, warps.shape[1] - 2)
     rise = warps[phone, knot + 1] - warps[phone, knot]
     share = warps[phone, knot] + (place - knot) * rise
-    first, last = data.spans[course.units[phone]].T
+    units = course.units[phone]
+    first, last = data.spans[units].T
+    positions = first + share * (last - first)
+    silent = np.array([label == SILENCE for label in course.spoken])[phone]
+    many = len(course.units) > 1
+    edges = ((phone == 0) & many, (phone == len(course.units) - 1) & many)
+    known = (units, times - start, end - start, *edges)
+    positions[silent] = rest(data, *(one[silent] for one in known))
     # Where a take is followed frame by frame, rounding must not come between.
-    return phone, np.round(first + share * (last - first) - 0.5, 9)
+    return phone, np.round(positions - 0.5, 9)

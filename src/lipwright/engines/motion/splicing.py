@@ -15,7 +15,7 @@ end they are as published.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -114,15 +114,18 @@ def find_splices(data: Recorded, course: Course, pairs: Pairs) -> list[Splice]:
     wanted = [known.get(label, number) for label, number in zip(course.spoken, own, strict=True)]
     before, after = course.units[:-1], course.units[1:]
     follows = (after == before + 1) & (data.take[before] == data.take[after])
+    places = np.flatnonzero(~follows)
+    shown = [pairs(wanted[n], wanted[n + 1]) for n in places.tolist()]
+    likest = _likest(data, before[places], after[places], shown)
     return [
         Splice(
             phone=n + 1,
             time=float(course.spans[n + 1, 0]),
             before=int(before[n]),
             after=int(after[n]),
-            pair=_likest(data, int(before[n]), int(after[n]), pairs(wanted[n], wanted[n + 1])),
+            pair=pair,
         )
-        for n in np.flatnonzero(~follows).tolist()
+        for n, pair in zip(places.tolist(), likest.tolist(), strict=True)
     ]
 
 
@@ -141,68 +144,64 @@ def blend(
     own : (T, K) float64
         Each frame as its own unit has it.
     """
-    reached = [_Side.of(data, course, splice, times, left) for splice in splices for left in (1, 0)]
-    if not reached:
+    if not splices:
         return own
-    rows = np.concatenate([side.rows for side in reached])
-    positions, low, high = (
-        np.concatenate([getattr(side, name) for side in reached])
-        for name in ("positions", "low", "high")
-    )
-    other = at(data, positions, low, high)
-    weight = np.concatenate([side.weight for side in reached])
-    behind = np.repeat([side.behind for side in reached], [len(side.rows) for side in reached])
-    return _mixed(own, rows, other, weight, behind)
+    sides = [_side(data, course, splices, times, behind) for behind in (0, 1)]
+    at_all = (np.concatenate([getattr(side, name) for side in sides]) for name in _PLACES)
+    other = at(data, *at_all)
+    return _mixed(own, sides, (other[: len(sides[0].rows)], other[len(sides[0].rows) :]))
+
+
+_PLACES = ("positions", "low", "high")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Side:
-    """What a splice adds to the frames on one side of it."""
+    """What splices add to the frames before them, or to those behind them."""
 
     rows: Ints
     positions: Floats  # in the database
     low: Ints
     high: Ints
     weight: Floats
-    behind: bool  # whether the splice lies behind these frames
-
-    @classmethod
-    def of(
-        cls, data: Recorded, course: Course, splice: Splice, times: Floats, behind: int
-    ) -> _Side:
-        phone = splice.phone - 1 + behind
-        start, end = course.spans[phone]
-        reaches = [
-            min(REACH, float(np.diff(course.spans[splice.phone - 1 + i])[0])) for i in (0, 1)
-        ]
-        seam, reach = splice.time, reaches[behind]
-        near = (seam, seam + reach) if behind else (seam - reach, seam)
-        rows = np.arange(*np.searchsorted(times, near))
-        away = np.abs(times[rows] - seam)
-        if splice.pair >= 0:
-            unit = splice.pair + behind
-            first, last = data.spans[unit]
-            share = (times[rows] - start) / (end - start)
-            positions = first + share * (last - first) - 0.5
-            weight = 1 - away / reach
-        else:
-            unit = splice.before if behind else splice.after
-            edge = data.spans[unit, behind]
-            positions = edge + (times[rows] - seam) * data.rate - 0.5
-            weight = (reach - away) / sum(reaches)
-        low, high = (bound.repeat(len(rows)) for bound in take_bounds(data, np.array([unit])))
-        return cls(rows, positions, low, high, weight, bool(behind))
 
 
-def _mixed(
-    own: Floats, rows: Ints, other: Floats, weight: Floats, behind: NDArray[np.bool_]
-) -> Floats:
+def _side(
+    data: Recorded, course: Course, splices: list[Splice], times: Floats, behind: int
+) -> _Side:
+    """Return what all splices add to the frames before them (0), or behind them (1)."""
+    seam = np.array([splice.time for splice in splices])
+    phone = np.array([splice.phone for splice in splices])
+    pair = np.array([splice.pair for splice in splices])
+    lengths = np.minimum(np.diff(course.spans, axis=1)[:, 0], REACH)
+    reach = (lengths[phone - 1], lengths[phone])
+    begin, end = (seam, seam + reach[1]) if behind else (seam - reach[0], seam)
+    first = np.searchsorted(times, begin)
+    count = np.searchsorted(times, end) - first
+    of = np.repeat(np.arange(len(splices)), count)
+    rows = np.arange(len(of)) + (first - np.cumsum(count) + count)[of]
+    away = np.abs(times[rows] - seam[of])
+    shown = (pair >= 0)[of]
+    unit = np.array([splice.before if behind else splice.after for splice in splices])
+    unit = np.where(pair >= 0, pair + behind, unit)
+    spans = np.asarray(data.spans[unit], np.float64)
+    start, stop = course.spans[phone - 1 + behind].T
+    share = (times[rows] - start[of]) / (stop - start)[of]
+    along = spans[of, 0] + share * (spans[:, 1] - spans[:, 0])[of]
+    carried = spans[of, behind] + (times[rows] - seam[of]) * data.rate
+    weight = np.where(
+        shown, 1 - away / reach[behind][of], (reach[behind][of] - away) / (reach[0] + reach[1])[of]
+    )
+    low, high = take_bounds(data, unit)
+    return _Side(rows, np.where(shown, along, carried) - 0.5, low[of], high[of], weight)
+
+
+def _mixed(own: Floats, sides: Sequence[_Side], other: Sequence[Floats]) -> Floats:
     """Mix each frame with what the splices before and after it bring."""
     shares, brought = np.zeros((2, len(own))), np.zeros((2, *own.shape))
-    for side in (0, 1):
-        mine = behind == bool(side)
-        shares[side, rows[mine]] = weight[mine]
-        brought[side, rows[mine]] = other[mine]
+    for number, side in enumerate(sides):
+        shares[number, side.rows] = side.weight
+        brought[number, side.rows] = other[number]
     after, before = shares
     # One weight alone is as published; of two, neither may undo the other at its own end.
     parts = np.stack((after * (1 - before), before * (1 - after), (1 - after) * (1 - before)))
@@ -213,16 +212,24 @@ def _mixed(
     return result
 
 
-def _likest(data: Recorded, before: int, after: int, found: NDArray[np.integer]) -> int:
-    """Return the first unit of the pair whose motion is most like the two units'; or -1."""
-    if not len(found):
-        return -1
-    tried = evenly(np.asarray(found, np.int64), COMPARED)
-    apart = np.zeros(len(tried))
-    for unit, other in ((before, tried), (after, tried + 1)):
-        own = data.frames[_picked(data, np.array([unit]))]
+def _likest(
+    data: Recorded, before: Ints, after: Ints, found: Sequence[NDArray[np.integer]]
+) -> Ints:
+    """Return, of each splice's pairs, that whose motion is most like the two units'; or -1."""
+    result = np.full(len(found), -1)
+    some = np.flatnonzero([len(one) > 0 for one in found])
+    if not len(some):
+        return result
+    tried = [evenly(np.asarray(found[n], np.int64), COMPARED) for n in some.tolist()]
+    counts = np.array([len(one) for one in tried])
+    every, starts = np.concatenate(tried), np.cumsum(counts) - counts
+    apart = np.zeros(len(every))
+    for unit, other in ((before, every), (after, every + 1)):
+        own = np.repeat(data.frames[_picked(data, unit[some])], counts, axis=0)
         apart += ((data.frames[_picked(data, other)] - own) ** 2).sum(axis=(1, 2))
-    return int(tried[apart.argmin()])
+    least = np.flatnonzero(apart == np.repeat(np.minimum.reduceat(apart, starts), counts))
+    result[some] = every[least[np.searchsorted(least, starts)]]
+    return result
 
 
 def _picked(data: Recorded, units: Ints) -> Ints:

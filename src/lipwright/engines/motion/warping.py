@@ -94,11 +94,16 @@ def warps(wanted: Floats, recorded: Floats) -> Floats:
 
 def _distances(wanted: Floats, recorded: Floats) -> Floats:
     """Squared distances of the features (P, M, 2 M - 1), their mean 1 in every phone."""
-    squares = (wanted**2).sum(axis=2)[:, :, None] + (recorded**2).sum(axis=2)[:, None, :]
-    apart: Floats = squares - 2 * wanted @ recorded.transpose(0, 2, 1)
+    own, other = (np.einsum("pnd,pnd->pn", side, side) for side in (wanted, recorded))
+    apart: Floats = wanted @ recorded.transpose(0, 2, 1)
+    apart *= -2.0  # in place, here and below: this is memory that is passed through
+    apart += own[:, :, None]
+    apart += other[:, None, :]
     mean = apart.mean(axis=(1, 2), keepdims=True)
     # Equal features leave only rounding behind, which must not be blown up to a warp.
-    return np.where(mean > 1e-9 * squares.mean(), apart / np.where(mean > 0, mean, 1.0), 0.0)
+    differ = mean > 1e-9 * (own.mean() + other.mean())
+    apart *= np.where(differ, 1.0 / np.where(differ, mean, 1.0), 0.0)
+    return apart
 
 
 def _least_path(cost: Floats) -> Ints:

@@ -29,6 +29,8 @@ LOOKED_AT = 4096
 NEIGHBOUR = 1.0
 """What a neighbour of another class costs, in deviations of sound; of the same class, less."""
 ALIKE = 0.4
+EDGE = 3.0
+"""What it costs that a line starts or ends with what had speech beside it: no face rests there."""
 LENGTH = 2.0
 """What a unit costs that is e times as long or short as wanted."""
 JUMP = 0.2
@@ -137,7 +139,7 @@ def _strangeness(
     inside = (beside == units + side) & (database.take[beside] == database.take[units])
     own = np.where(inside, database.label[beside], -1)
     if label < 0:
-        return np.where(own == label, 0.0, NEIGHBOUR)
+        return np.where(own == label, 0.0, EDGE)
     alike = (own >= 0) & (classes[own] == classes[label])
     cost: Floats = NEIGHBOUR * np.where(own == label, 0.0, np.where(alike, ALIKE, 1.0))
     return cost
