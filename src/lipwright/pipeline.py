@@ -207,8 +207,9 @@ def animate(
         A motion database, from :func:`lipwright.motion_takes.build_motion`; else the built-in
         synthetic one.
     search : str
-        How the motion engine searches: ``"several"``, the mean of several paths, or one path:
-        ``"cheapest"``, ``"optimal"``, ``"greedy"``, ``"pq"``.
+        How the motion engine searches: ``"several"``, the mean of several paths, ``"optimal"``,
+        that of those with the fewest jumps, or one path: ``"cheapest"``, ``"greedy"``,
+        ``"pq"``.
     controls : str, optional
         What the motion engine gives: ``"recorded"``, the takes' own channels, or ``"poses"``,
         those of the set; what the character can play, where it is not given.

@@ -18,6 +18,7 @@ from lipwright.engines.motion.search import (
     PATHS,
     Costs,
     Search,
+    find_several,
     label_indices,
     several,
     wanted_sound,
@@ -99,6 +100,19 @@ def line(left_out: Database, first: int, count: int) -> Line:
         Features(np.asarray(left_out.features[low:high]), rate),
         np.asarray(left_out.values[low:high]),
     )
+
+
+def alike(search: Search, count: int) -> Finding:
+    """Return what finds so many paths of equal merit by a search, for their mean."""
+
+    def find(base: Base, said: Line) -> Found:
+        _, sound = _wanted(base.database, said)
+        costs = Costs(base.graph, sound)
+        paths = find_several(search, base.graph, said.labels, costs, count=count)
+        units = np.stack([path.units for path in paths])
+        return Found(units, paths[0].jumps, paths[0].complete)
+
+    return find
 
 
 def one_path(search: Search) -> Finding:

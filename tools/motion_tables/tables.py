@@ -10,6 +10,7 @@ import numpy as np
 
 from lipwright.engines.motion.building import build, takes_of
 from lipwright.engines.motion.database import Database, Settings
+from lipwright.engines.motion.engine import ALIKE as PATHS_ALIKE
 from lipwright.engines.motion.graph import graph_of
 from lipwright.engines.motion.learnt import keep_learnt, learnt_of
 from lipwright.engines.motion.search import greedy, optimal, pq
@@ -19,6 +20,7 @@ from tools.motion_tables.lines import (
     Finding,
     Line,
     Result,
+    alike,
     cheapest_path,
     line,
     one_path,
@@ -30,6 +32,7 @@ from tools.motion_tables.published import CLUSTERED, SEARCHES
 CAP = 30.0
 """Seconds for one search by PQ-Matching; the publication's took up to 650."""
 RUNS = 20
+ALIKE = PATHS_ALIKE["optimal"]
 Say = Callable[[str], None]
 
 
@@ -48,6 +51,7 @@ def ours() -> dict[str, Finding]:
     """Return the searches that the publication has not."""
     return {
         "optimal": one_path(optimal),
+        f"optimal, {ALIKE} paths": alike(optimal, ALIKE),
         "cheapest": cheapest_path,
         "several": several_paths,
     }

@@ -44,7 +44,8 @@ animation = stack(
     click.option(
         "--search", default="several", show_default=True,
         type=click.Choice(["several", "cheapest", "optimal", "greedy", "pq"]),
-        help="How the motion engine searches: the mean of several paths, or one path.",
+        help="How the motion engine searches: the mean of several paths, of those with the "
+        "fewest jumps (optimal), or one path.",
     ),
     click.option(
         "--controls", type=click.Choice(["recorded", "poses"]),

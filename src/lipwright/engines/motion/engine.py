@@ -24,7 +24,7 @@ from lipwright.engines.motion.search import PATHS as MANY
 from lipwright.engines.motion.search import (
     Costs,
     Search,
-    find,
+    find_several,
     greedy,
     label_indices,
     optimal,
@@ -47,7 +47,9 @@ SEARCHES: dict[str, Callable[[], Search]] = {
     "greedy": lambda: greedy,
     "pq": lambda: pq(4, seconds=10.0),
 }
-"""The publication's searches, for one path; ``pq`` takes the best it has after ten seconds."""
+"""The publication's searches; ``pq`` takes the best it has after ten seconds."""
+ALIKE = {"optimal": 8}
+"""How many paths of equal merit a search gives, where it is not one."""
 _SHORTEST_GAP = 1e-6
 
 
@@ -58,8 +60,8 @@ class MotionEngine:
     ----------
     database : Database
     search : str
-        ``"several"``: the mean of several paths; or one path: ``"cheapest"``,
-        ``"optimal"``, ``"greedy"``, ``"pq"``.
+        ``"several"``: the mean of several paths; ``"optimal"``: that of those with the fewest
+        jumps; or one path: ``"cheapest"``, ``"greedy"``, ``"pq"``.
     name : str
         What reports call the database; its folder where it is not given.
 
@@ -181,10 +183,17 @@ class MotionEngine:
             sound = wanted_sound(self.database, heard.values, heard.rate, heard.start, spans)
         if self.search in SEARCHES:
             costs = Costs(self._graph, sound)
-            path = find(SEARCHES[self.search](), self._graph, labels, costs, self._class_of)
-            told = {"complete": path.complete, "jumps": path.jumps}
-            missing = path.stand_ins
-            units = path.units
+            paths = find_several(
+                SEARCHES[self.search](),
+                self._graph,
+                labels,
+                costs,
+                self._class_of,
+                ALIKE.get(self.search, 1),
+            )
+            told = {"complete": paths[0].complete, "jumps": paths[0].jumps, "paths": len(paths)}
+            missing = paths[0].stand_ins
+            units = np.stack([path.units for path in paths])
         else:
             wanted, missing = label_indices(self.database, labels, self._class_of)
             lengths = spans[:, 1] - spans[:, 0]

@@ -13,6 +13,7 @@ from lipwright.engines.motion.search.path import (
     Search,
     StandIn,
     find,
+    find_several,
     label_indices,
     path_of,
 )
@@ -26,6 +27,7 @@ __all__ = [
     "Search",
     "StandIn",
     "find",
+    "find_several",
     "greedy",
     "label_indices",
     "optimal",

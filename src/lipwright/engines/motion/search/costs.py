@@ -9,6 +9,9 @@ All are weighted and added.
 
 from __future__ import annotations
 
+from copy import copy
+from typing import Literal
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -21,6 +24,9 @@ Floats = NDArray[np.float64]
 
 UNUSUAL = 8.0
 """How much dearer a unit is whose motion is as far from the usual as motion is from its mean."""
+USED = 3.0
+"""What each use of a unit by another path costs, where other paths are looked for."""
+_SIDES: tuple[Literal["left"], Literal["right"]] = ("left", "right")
 
 
 def wanted_sound(
@@ -83,8 +89,15 @@ class Costs:
         self._seams = graph.database.seams
         self._sound_weight = sound_weight / np.sqrt(width)
         self._joining_weight = joining_weight
+        self._used = np.zeros(0, np.int64)
         self._unusual = graph.database.unusual
         self._unusual_weight = unusual_weight
+
+    def without(self, units: Nodes) -> Costs:
+        """Return costs by which units that others used already cost more, once for each use."""
+        other = copy(self)
+        other._used = np.sort(np.append(self._used, units))
+        return other
 
     def sound(self, phone: int, nodes: Nodes) -> Floats:
         """Return how badly nodes suit one wanted phone: (M,), by the least of a node's sounds."""
@@ -109,7 +122,11 @@ class Costs:
     def _suited(self, heard: Floats, units: Nodes) -> Floats:
         """Make units that move unusually dearer: what sounds just as wanted stays free."""
         odd = self._unusual_weight * self._unusual.take(units).astype(np.float64)
-        return odd if self._sound is None else heard * (1.0 + odd)
+        found: Floats = odd if self._sound is None else heard * (1.0 + odd)
+        if len(self._used):
+            first, last = (np.searchsorted(self._used, units, side) for side in _SIDES)
+            found = found + USED * (last - first)
+        return found
 
     def _heard_as(self, phones: Nodes, units: Nodes) -> Floats:
         if self._sound is None:

@@ -105,6 +105,26 @@ def find(
     return replace(search(graph, wanted, costs), stand_ins=stand_ins)
 
 
+def find_several(
+    search: Search,
+    graph: Graph,
+    phones: Sequence[str],
+    costs: Costs,
+    class_of: Callable[[str], str] | None = None,
+    count: int = 1,
+) -> list[Path]:
+    """Search as often as asked, each time for units that no path before has used.
+
+    The paths have the jumps that the search allows, and equal merit but for their cost: the
+    mean of their motions has less of one recording's chance in it. The best comes first.
+    """
+    paths: list[Path] = []
+    for _ in range(count):
+        paths.append(find(search, graph, phones, costs, class_of))
+        costs = costs.without(paths[-1].units)
+    return paths
+
+
 def label_indices(
     database: Database, phones: Sequence[str], class_of: Callable[[str], str] | None = None
 ) -> tuple[NDArray[np.int64], tuple[StandIn, ...]]:
