@@ -62,6 +62,7 @@ def figures(engine: MotionEngine, some: Sequence[Line], words: frozenset[str]) -
         "rounding": round(found.rounding.correlation, 4),
         "closed": None if closed.met is None else round(closed.met, 3),
         "closures_within_40_ms": closed.within_40_ms and round(closed.within_40_ms, 3),
+        "own_closures_met": closed.own_met and round(closed.own_met, 3),
         "turns": [round(found.turns.animation, 2), round(found.turns.recording, 2)],
         "lag_ms": found.lag_ms,
         "jumps": round(float(np.mean([one.report.get("jumps", 0) for one in made])), 2),

@@ -82,6 +82,8 @@ def test_what_the_face_leaves_open_is_not_asked_for() -> None:
     assert report.closures["p b m"].phones == 2
     assert report.closures["p b m"].recorded == 1
     assert report.closures["p b m"].met == 1
+    assert report.closures["p b m"].own == 2  # of which the face has one
+    assert report.closures["p b m"].own_met == 0.5
 
 
 def test_time_between_closures() -> None:

@@ -86,4 +86,6 @@ def _closures(found: Closures) -> str:
     text = f"{found.met:.0%} of {found.recorded} recorded closures met"
     if found.median_ms is not None:
         text += f", {found.median_ms:.0f} ms apart"
+    if found.own_met is not None:
+        text += f"; of {found.own} of its own the face has {found.own_met:.0%}"
     return text

@@ -9,7 +9,7 @@ one can fall between two frames of video.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -47,6 +47,10 @@ class Closures:
         may stay closed, between the edges that face the speech.
     later_ms : float or None
         Median of how much later the animation closes.
+    own : int
+        At how many of the phones the animation is closed.
+    own_met : float or None
+        Share of these at which the recorded face is closed too.
     """
 
     phones: int
@@ -55,6 +59,8 @@ class Closures:
     median_ms: float | None
     within_40_ms: float | None
     later_ms: float | None
+    own: int = 0
+    own_met: float | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -78,7 +84,7 @@ class Mouths:
 
 def closures(mouths: Sequence[Mouths], kind: str) -> Closures:
     """Measure the closures of one of :data:`KINDS`."""
-    count, met, apart = 0, [], []
+    count, met, apart, own = 0, [], [], []
     for one in mouths:
         phones = list(one.phones)
         for index, phone in enumerate(phones):
@@ -93,12 +99,15 @@ def closures(mouths: Sequence[Mouths], kind: str) -> Closures:
                 _closed(curve, limits, SHARES[kind], phone.start, phone.end)
                 for curve, limits in zip((one.animation, one.recording), one.ranges, strict=True)
             )
+            if ours is not None:
+                own.append(theirs is not None)
             if theirs is None:
                 continue
             met.append(ours is not None)
             if ours is not None:
                 apart.append(_moment(ours, silent) - _moment(theirs, silent))
-    return _summary(count, met, 1e3 * np.array(apart))
+    found = _summary(count, met, 1e3 * np.array(apart))
+    return replace(found, own=len(own), own_met=float(np.mean(own)) if own else None)
 
 
 def _closed(
