@@ -51,6 +51,7 @@ REPEATED = (1, 10, 50)
 REPEATED_ALL = 280
 CAP = 20.0
 """Seconds for one PQ search; the paper's took up to 650."""
+NOISY = ("unit_sound", "seams", "unusual")
 Numbers = NDArray[Any]
 Corpus = tuple[list[Prepared], list[Prepared]]
 
@@ -173,7 +174,7 @@ def repeated(held: Database, times: int, folder: Path) -> None:
     once = ("mean", "basis", "variance", "rest", "sound_centre", "sound_scale")
     arrays: dict[str, Numbers] = {
         **{name: getattr(held, name) for name in once},
-        **{name: noisy(getattr(held, name), times, rng) for name in ("unit_sound", "seams")},
+        **{name: noisy(getattr(held, name), times, rng) for name in NOISY},
         **{name: np.tile(getattr(held, name), (times, 1)) for name in ("features", "values")},
         "frames": noisy(held.frames, times, rng),
         "label": label,

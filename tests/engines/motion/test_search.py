@@ -1,5 +1,6 @@
 """The searches against exhaustive search on small databases, and against each other."""
 
+import sys
 from collections.abc import Sequence
 from itertools import pairwise, product
 
@@ -31,6 +32,8 @@ from tests.engines.motion.small import database
 words = st.lists(st.text("abc", min_size=1, max_size=5), min_size=1, max_size=3)
 lines = st.text("abc", min_size=1, max_size=5)
 CLUSTERED = Settings(clusters=4, motion_points=4)
+# The package has a function of the module's name.
+optimal_search = sys.modules[optimal.__module__]
 
 
 def indices(of: Database, line: str) -> np.ndarray:
@@ -93,6 +96,29 @@ def test_optimal_is_the_best_of_all_paths(words: list[str], line: str) -> None:
     assert path.jumps == expected[0]
     assert path.cost == pytest.approx(expected[1], abs=1e-6)
     assert speaks(path, graph, wanted)
+
+
+@settings(max_examples=60, deadline=None)
+@given(
+    words=st.lists(st.text("abc", min_size=1, max_size=30), min_size=1, max_size=30),
+    line=st.text("abc", min_size=1, max_size=30),
+    most=st.integers(1, 5),
+)
+def test_in_a_large_database_jumps_stay_the_fewest(words: list[str], line: str, most: int) -> None:
+    graph = UnitGraph(database(*words))
+    wanted = indices(graph.database, line)
+    measured = costs(graph, len(line))
+    whole = optimal(graph, wanted, measured)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(optimal_search, "MOST", most)
+        patch.setattr(optimal_search, "KEPT", most)
+        path = optimal(graph, wanted, measured)
+    assert path.jumps == whole.jumps == greedy(graph, wanted, measured).jumps
+    assert path.cost >= whole.cost - 1e-6
+    assert speaks(path, graph, wanted)
+    if path.cost > whole.cost + 1e-6:
+        assert not path.complete
+    assert whole.complete
 
 
 @settings(max_examples=80, deadline=None)

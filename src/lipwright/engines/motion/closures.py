@@ -19,6 +19,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,6 +27,7 @@ from numpy.typing import NDArray
 from lipwright.engines.motion.recorded import Ints, Recorded
 
 Floats = NDArray[np.float64]
+_Integer = TypeVar("_Integer", bound=np.integer)
 Opening = Callable[[Floats], NDArray[np.floating]]
 """How far the lips are apart in each frame of (T, C): (T,), less is more closed; or (T, 2): how
 far the lips are apart, and how far the lower lip is from the upper teeth, as :data:`KINDS`."""
@@ -187,7 +189,7 @@ def _least(motion: Floats, near: slice, kind: Closed, opening: Opening) -> tuple
     return near.start + best, float(openings[best])
 
 
-def evenly(items: Ints, count: int) -> Ints:
+def evenly(items: NDArray[_Integer], count: int) -> NDArray[_Integer]:
     """Return at most ``count`` of the items, evenly spread over them."""
     if len(items) <= count:
         return items

@@ -6,23 +6,35 @@ gives the latest place where the k-th tile can end, from the right the earliest.
 the latest start and the earliest end lies the tile's core, which every path with the
 fewest jumps takes from one piece of a take; so the candidates of a tile are the places
 where its core occurs, far fewer than units, and only seams within the slack are tried.
+
+In a very large database a short string occurs so often that comparing each place of one
+tile with each of the next would take minutes. Where a core occurs more than ``MOST`` times,
+``MOST`` places spread evenly over the database are looked at, for each way to lengthen the
+core, and the ``KEPT`` cheapest of these are joined. Jumps stay the fewest; the cost may be a
+little above the least, and the path says that it is not complete.
 """
 
 from __future__ import annotations
 
 from bisect import bisect_left
 from collections.abc import Sequence
-from dataclasses import dataclass
-from itertools import pairwise
+from dataclasses import dataclass, replace
+from itertools import pairwise, product
 
 import numpy as np
 from numpy.typing import NDArray
 
+from lipwright.engines.motion.closures import evenly
 from lipwright.engines.motion.graph import Graph, Nodes, UnitGraph
 from lipwright.engines.motion.search.costs import Costs, Floats
 from lipwright.engines.motion.search.layered import best_nodes
 from lipwright.engines.motion.search.path import Path, path_of
 from lipwright.engines.motion.search.steps import cheapest_jumps, checked
+
+MOST = 1500
+"""Places of a tile's core that are all compared."""
+KEPT = 200
+"""The cheapest of them that are joined, where there are more."""
 
 
 def optimal(graph: Graph, wanted: NDArray[np.integer], costs: Costs) -> Path:
@@ -37,7 +49,8 @@ def optimal(graph: Graph, wanted: NDArray[np.integer], costs: Costs) -> Path:
     """
     labels = checked(graph, wanted)
     if isinstance(graph, UnitGraph) and labels:
-        return path_of(graph, _by_tiles(graph, labels, costs), costs)
+        nodes, whole = _by_tiles(graph, labels, costs)
+        return replace(path_of(graph, nodes, costs), complete=whole)
     return path_of(graph, best_nodes(graph, labels, costs), costs)
 
 
@@ -48,7 +61,7 @@ class _Tile:
     ``first`` to ``last`` (exclusive) is its core, ``least`` to ``most`` what it can hold.
     ``units`` are the units of the core's first phone, ``(O,)``. ``leads[j]`` are the places
     in ``units`` of those that also match the j phones before the core, ``tails[j]`` of
-    those that match the j phones after it.
+    those that match the j phones after it. ``whole``: whether all places are there.
     """
 
     least: int
@@ -58,6 +71,7 @@ class _Tile:
     units: Nodes
     leads: tuple[Nodes, ...]
     tails: tuple[Nodes, ...]
+    whole: bool
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -90,10 +104,11 @@ def bounds(graph: UnitGraph, labels: Sequence[int]) -> tuple[list[int], list[int
     return earliest[::-1], latest
 
 
-def _by_tiles(graph: UnitGraph, labels: Sequence[int], costs: Costs) -> Nodes:
+def _by_tiles(graph: UnitGraph, labels: Sequence[int], costs: Costs) -> tuple[Nodes, bool]:
+    """Return the nodes, and whether all places of all tiles were compared."""
     earliest, latest = bounds(graph, labels)
     found = [
-        _tile(graph, labels, *edges)
+        _tile(graph, labels, costs, *edges)
         for edges in zip(earliest, latest, earliest[1:], latest[1:], strict=False)
     ]
     ways = [_through_first(found[0], costs)]
@@ -105,13 +120,50 @@ def _by_tiles(graph: UnitGraph, labels: Sequence[int], costs: Costs) -> Nodes:
         begin = int(way.begin[at])
         nodes[begin:end] = tile.units[at] + np.arange(begin - tile.first, end - tile.first)
         at, end = int(way.source[at]), begin
-    return nodes
+    return nodes, all(tile.whole for tile in found)
 
 
 def _tile(
-    graph: UnitGraph, labels: Sequence[int], least: int, first: int, last: int, most: int
+    graph: UnitGraph,
+    labels: Sequence[int],
+    costs: Costs,
+    least: int,
+    first: int,
+    last: int,
+    most: int,
 ) -> _Tile:
-    units = graph.index.occurrences(labels[first:last]).astype(np.int64)
+    every = graph.index.occurrences(labels[first:last])
+    if len(every) <= MOST:
+        return _with_ends(graph, labels, (least, first, last, most), every.astype(np.int64), True)
+    some = [
+        evenly(graph.index.occurrences(labels[begin:end]), MOST) + np.int64(first - begin)
+        for begin, end in product(range(least, first + 1), range(last, most + 1))
+    ]
+    units = np.unique(np.concatenate(some))
+    tile = _with_ends(graph, labels, (least, first, last, most), units, False)
+    kept = _cheapest(tile, _core(tile, costs))
+    return _with_ends(graph, labels, (least, first, last, most), units[kept], False)
+
+
+def _cheapest(tile: _Tile, cost: Floats) -> Nodes:
+    """The places that cost least, as many for each way in which a tile can be longer."""
+    kept = []
+    for lead, tail in product(tile.leads, tile.tails):
+        both = np.intersect1d(lead, tail, assume_unique=True)
+        order = np.argsort(cost[both], kind="stable")[:KEPT]
+        kept.append(both[order])
+    return np.unique(np.concatenate(kept))
+
+
+def _with_ends(
+    graph: UnitGraph,
+    labels: Sequence[int],
+    edges: tuple[int, int, int, int],
+    units: Nodes,
+    whole: bool,
+) -> _Tile:
+    """Return a tile with what its places hold before and after its core."""
+    least, first, last, most = edges
     label, take = graph.database.label, graph.database.take
     every = np.arange(len(units))
 
@@ -128,7 +180,7 @@ def _tile(
         leads.append(extended(phone - first, leads[-1], phone))
     for phone in range(last, most):
         tails.append(extended(phone - first, tails[-1], phone))
-    return _Tile(least, first, last, most, units, tuple(leads), tuple(tails))
+    return _Tile(least, first, last, most, units, tuple(leads), tuple(tails), whole)
 
 
 def _core(tile: _Tile, costs: Costs) -> Floats:
