@@ -14,7 +14,7 @@ import pickle
 import shutil
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -62,6 +62,7 @@ def build_motion(
     texts: str | Path | None = None,
     clusters: int = 0,
     language: str = "en-us",
+    by_ear: bool = False,
     add: bool = False,
     workers: int | None = None,
     progress: Progress | None = None,
@@ -80,6 +81,9 @@ def build_motion(
         Into how many nodes units of like motion are merged; 0: they are not.
     language : str
         That is spoken.
+    by_ear : bool
+        Whether takes without words and labels are used too, their phones heard
+        (:mod:`lipwright.schedule.by_ear`).
     add : bool
         Whether the takes go behind those of a database that is there.
     workers : int, optional
@@ -99,16 +103,21 @@ def build_motion(
     from lipwright.engines.motion.database import Settings
     from lipwright.engines.motion.learnt import keep_learnt
 
-    found = find_takes(folder, texts)
+    found = [replace(take, by_ear=by_ear) for take in find_takes(folder, texts)]
     target = Path(database)
     _check(target)
     part = target.parent / f".{target.name}{_PART}"
+    heard = sum(take.has_only_sound for take in found)
     prepared, notes, refused = _prepared(found, part, language, workers, progress)
     if not prepared:
-        raise InputError("no take can be used", where=str(folder), expected="; ".join(refused[:3]))
+        reasons = "; ".join(refused[:3])
+        cure = "" if by_ear or not heard else "takes without words are used with --by-ear"
+        raise InputError("no take can be used", where=str(folder), expected=reasons, cure=cure)
     made = append(target, prepared) if add else build(target, prepared, Settings(clusters=clusters))
     keep_learnt(made)
     shutil.rmtree(part, ignore_errors=True)
+    if by_ear and heard:
+        notes.append(f"takes without words: {heard}; their phones are heard, by an English model")
     return Building(len(made.take_start), tuple(notes), tuple(refused))
 
 
@@ -149,7 +158,7 @@ def _key(take: TakeFiles, language: str) -> str:
     """What tells a take in its present state from any other."""
     paths = [path for path in (take.motion, take.sound, take.labels) if path is not None]
     state = [[str(path), file_version(str(path))] for path in paths]
-    text = json.dumps([_VERSION, take.name, take.text, language, state])
+    text = json.dumps([_VERSION, take.name, take.text, language, take.by_ear, state])
     return hashlib.sha256(text.encode()).hexdigest()[:24]
 
 

@@ -8,7 +8,7 @@ those the bigram engine's curves are fitted to.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -143,10 +143,12 @@ def read_take(files: TakeFiles, language: str = "en-us") -> Recorded:
 
 
 def _speech(files: TakeFiles, sound: Sound | None, language: str) -> Speech:
-    from lipwright.pipeline import align, from_labels
+    from lipwright.pipeline import align, from_labels, hear
 
     if files.labels is not None:
         return from_labels(files.labels, sound)
+    if sound is not None and files.by_ear and files.has_only_sound:
+        return replace(hear(files.sound or sound), notes=())
     if sound is None or not files.text:
         lacks = "sound" if sound is None else "words"
         raise InputError(
