@@ -12,6 +12,7 @@ import tempfile
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -58,12 +59,12 @@ def cut(folder: Path) -> list[str]:
         header, *rows = path.read_text().splitlines()
         spoken = bursts(sound)
         edges = [0]
-        for (_, end), (start, _) in zip(spoken, spoken[1:], strict=False):
+        for (_, end), (start, _) in pairwise(spoken):
             frame = round(15 * (end + start))
             if start - end > 0.2 and frame - edges[-1] > 30 * LONG:
                 edges.append(frame)
         edges.append(min(len(rows), int(30 * sound.duration)))
-        for number, (first, last) in enumerate(zip(edges, edges[1:], strict=False)):
+        for number, (first, last) in enumerate(pairwise(edges)):
             names.append(f"{path.stem}_{number:02d}")
             cells = [row.partition(",")[2] for row in rows[first:last]]
             lines = [f"{k / 30:.4f},{row}" for k, row in enumerate(cells)]
@@ -144,7 +145,7 @@ def by_loudness(lines: Sequence[Line]) -> dict[str, Any]:
         assert line.speech.sound is not None
         level = loudness(line.speech.sound)
         level = np.convolve(np.maximum(level, level.max() - 40), np.ones(9) / 9, "same")
-        heard.append(Curve(np.arange(len(level)) * STEP, level))
+        heard.append(Curve(np.arange(len(level)) * STEP, level.astype(np.float64)))
     lag, best = later(heard, [line.face.opening for line in lines])
     jaw_lag, jaw = later(heard, [line.jaw for line in lines])
     return {"opening": best, "later_ms": lag, "jaw": jaw, "jaw_later_ms": jaw_lag}

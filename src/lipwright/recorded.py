@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from lipwright.errors import InputError
+from lipwright.errors import InputError, SoundError
 from lipwright.phones import SILENCE, PhoneTrack
 from lipwright.sound import Sound
 from lipwright.timeline import Tier
@@ -143,12 +143,12 @@ def read_take(files: TakeFiles, language: str = "en-us") -> Recorded:
 
 
 def _speech(files: TakeFiles, sound: Sound | None, language: str) -> Speech:
-    from lipwright.pipeline import align, from_labels, hear
+    from lipwright.pipeline import align, from_labels
 
     if files.labels is not None:
         return from_labels(files.labels, sound)
     if sound is not None and files.by_ear and files.has_only_sound:
-        return replace(hear(files.sound or sound), notes=())
+        return _heard(sound, str(files.sound))
     if sound is None or not files.text:
         lacks = "sound" if sound is None else "words"
         raise InputError(
@@ -157,6 +157,16 @@ def _speech(files: TakeFiles, sound: Sound | None, language: str) -> Speech:
             expected="sound and words, or labels, beside it by name",
         )
     return align(sound, files.text, language=language)
+
+
+def _heard(sound: Sound, where: str) -> Speech:
+    """Return phones by ear; that they are doubtful is said once for all takes."""
+    from lipwright.pipeline import hear
+
+    try:
+        return replace(hear(sound), notes=sound.notes)
+    except SoundError as error:
+        raise error.at(where) from None
 
 
 def fit_set(

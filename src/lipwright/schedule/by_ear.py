@@ -121,4 +121,4 @@ def _follows(model: AcousticModel) -> NDArray[np.float64]:
     fillers = model.triphones.fillers
     names = ["SIL" if i in fillers else name.upper() for i, name in enumerate(model.phones)]
     steps = [[known.prob([after, before]) for after in names] for before in names]
-    return np.array(steps, np.float64) * np.log(1.0001)
+    return np.asarray(np.log(1.0001) * np.array(steps, np.float64))

@@ -113,7 +113,8 @@ class MotionEngine:
         # Joining looks at the middles of frames: the first of them is to be at `first`.
         spans[0, 0] = (first - 0.5) / rate
         heard = self._heard(speech)
-        units, report = self._units(labels, spans, heard)
+        # Nobody vouches for phones of a confidence of 0: they were heard without words.
+        units, report = self._units(labels, spans, heard, unsure=speech.confidence == 0.0)
         joined = join(
             self.database,
             units,
@@ -167,7 +168,12 @@ class MotionEngine:
         return rasta_plp(speech.sound, self.database.rate)
 
     def _units(
-        self, labels: Sequence[str], spans: NDArray[np.float64], heard: Features | None
+        self,
+        labels: Sequence[str],
+        spans: NDArray[np.float64],
+        heard: Features | None,
+        *,
+        unsure: bool,
     ) -> tuple[NDArray[np.int64], dict[str, Any]]:
         """Return the paths of units, and what is to be said of them."""
         sound = None
@@ -182,7 +188,7 @@ class MotionEngine:
         else:
             wanted, missing = label_indices(self.database, labels, self._class_of)
             lengths = spans[:, 1] - spans[:, 0]
-            units = several(self.database, wanted, lengths, self._classes, sound)
+            units = several(self.database, wanted, lengths, self._classes, sound, unsure=unsure)
             told = {"paths": len(units)}
         return units, {
             "database": str(self.database.folder),

@@ -5,6 +5,9 @@ mean of several that fit has less of it. Here a jump is a cost like any other, b
 unit sounds, what its neighbours are, and how long it is; each path is the cheapest
 (dynamic programming), and units that a path used cost more for the next. With one path it
 is a search by cost alone; the publication's searches put the fewest jumps first.
+
+Phones that were heard without words are often wrong, in the takes as in the line. There a
+unit of any phone may stand for another, at a cost, and how it sounds counts twice.
 """
 
 from __future__ import annotations
@@ -31,6 +34,9 @@ LENGTH = 2.0
 """What a unit costs that is e times as long or short as wanted."""
 JUMP = 0.5
 USED = 1.2
+OTHER, OTHER_ALIKE = 1.0, 0.3
+"""What a unit of another phone costs where phones are unsure; of the same class, less."""
+UNSURE_SOUND = 2.0
 _SHORTEST = 0.02
 
 
@@ -49,6 +55,8 @@ def several(
     classes: NDArray[np.integer],
     sound: NDArray[np.float32] | None = None,
     paths: int = PATHS,
+    *,
+    unsure: bool = False,
 ) -> Nodes:
     """Return several paths of units for some phones, the cheapest first.
 
@@ -65,6 +73,8 @@ def several(
         Of the wanted phones, as the database keeps that of its units.
     paths : int
         How many.
+    unsure : bool
+        Whether labels may be wrong, those of the database too; it needs ``sound``.
 
     Returns
     -------
@@ -72,7 +82,7 @@ def several(
     """
     asked = [int(label) for label in wanted]
     phones = [
-        _phone(database, asked, place, float(lengths[place]), classes, sound)
+        _phone(database, asked, place, float(lengths[place]), classes, sound, unsure)
         for place in range(len(asked))
     ]
     used = [np.zeros(len(phone.units)) for phone in phones]
@@ -91,15 +101,16 @@ def _phone(
     length: float,
     classes: NDArray[np.integer],
     sound: NDArray[np.float32] | None,
+    unsure: bool,
 ) -> _Phone:
-    label = wanted[place]
-    first, last = database.label_first[label : label + 2].tolist()
-    step = max(1, -(-(last - first) // LOOKED_AT))
-    units = np.asarray(database.by_label[first:last:step], np.int64)
+    units = _having(database, wanted[place])
     cost = np.zeros(len(units))
     if sound is not None:
+        if unsure:
+            units, cost = _any(database, units, wanted[place], classes)
         away = database.unit_sound[units] - sound[place]
-        cost += np.sqrt(np.einsum("ud,ud->u", away, away) / away.shape[1])
+        far = np.sqrt(np.einsum("ud,ud->u", away, away) / away.shape[1])
+        cost += UNSURE_SOUND * far if unsure else far
     before = wanted[place - 1] if place else -1
     after = wanted[place + 1] if place + 1 < len(wanted) else -1
     cost += _strangeness(database, units, -1, before, classes)
@@ -108,6 +119,24 @@ def _phone(
     own = np.maximum((spans[:, 1] - spans[:, 0]) / database.rate, _SHORTEST)
     cost += LENGTH * np.abs(np.log(own / max(length, _SHORTEST)))
     return _Phone(units, cost)
+
+
+def _having(database: Database, label: int) -> Nodes:
+    """Return the units of a label that are looked at."""
+    first, last = database.label_first[label : label + 2].tolist()
+    step = max(1, -(-(last - first) // LOOKED_AT))
+    return np.asarray(database.by_label[first:last:step], np.int64)
+
+
+def _any(
+    database: Database, own: Nodes, label: int, classes: NDArray[np.integer]
+) -> tuple[Nodes, Floats]:
+    """Return units of any label, ``own`` among them, and what it costs that they are others."""
+    step = max(1, -(-len(database.label) // LOOKED_AT))
+    units = np.union1d(own, np.arange(0, len(database.label), step))
+    labels = database.label[units]
+    alike = np.where(classes[labels] == classes[label], OTHER_ALIKE, OTHER)
+    return units, np.where(labels == label, 0.0, alike)
 
 
 def _strangeness(
