@@ -1,10 +1,10 @@
 """The motion engine on Mandarin takes without words: phones by ear, curves of animators.
 
-Each take beside the project is cut in the middle of pauses into stretches of some seconds, and
-every sixth stretch is left out; then the running speech is left out as a whole, so that the
-database holds single syllables and words only. What is left out is heard and animated, and
-held against the animators' own curves, both on the built-in head. Loudness alone is the
-least that can be had. Without recordings nothing is measured.
+Each take beside the project is cut in the middle of pauses into stretches of some seconds.
+Left out are: every sixth stretch of the four takes of syllables and words; each stretch of
+the running speech in turn; all running speech. What is left out is heard and animated, and
+held against the animators' own curves, both on the built-in head. Loudness alone stands
+beside. Without recordings nothing is measured.
 """
 
 import shutil
@@ -18,16 +18,18 @@ from typing import Any
 
 import numpy as np
 import soundfile
-from numpy.typing import NDArray
 
 from bench.mandarin import FOLDER, STEP, bursts, loudness
 from bench.measure import say
 from lipwright import pipeline
 from lipwright.animation import Animation
 from lipwright.character.head import measure as measure_mouth
+from lipwright.engines.motion.building import build as build_of
+from lipwright.engines.motion.building import takes_of
 from lipwright.engines.motion.capture import read_motion
-from lipwright.engines.motion.database import open_database
+from lipwright.engines.motion.database import Database, open_database
 from lipwright.engines.motion.engine import MotionEngine
+from lipwright.engines.motion.learnt import keep_learnt
 from lipwright.evaluate import Curve, MotionReport, Recording
 from lipwright.evaluate.motion import correlation
 from lipwright.motion_takes import build_motion
@@ -38,7 +40,7 @@ LONG, EVERY = 5.0, 6
 RUNNING = "1114_3_15"
 LAGS = np.arange(-30, 31) * 0.01
 SEARCHES = "several", "optimal", "greedy"
-Values = NDArray[np.float64]
+Make = Callable[[Speech], Animation]
 
 
 @dataclass(frozen=True)
@@ -118,21 +120,20 @@ def told(found: MotionReport) -> dict[str, Any]:
     }
 
 
-def figures(make: Callable[[Speech], Animation], lines: Sequence[Line]) -> dict[str, Any]:
+def figures(make: Sequence[Make], lines: Sequence[Line]) -> dict[str, Any]:
     """How like the animators' curves ours are."""
     before = time.perf_counter()
-    made = [make(line.speech) for line in lines]
+    made = [way(line.speech) for way, line in zip(make, lines, strict=True)]
     seconds = time.perf_counter() - before
     found = pipeline.evaluate_motion([(a, b.face) for a, b in zip(made, lines, strict=True)])
-    names = made[0].controls
-    name = "jawOpen" if "jawOpen" in names else "open"
+    name = "jawOpen" if "jawOpen" in made[0].controls else "open"
     jaws = [Curve(one.times, one.control(name).astype(np.float64)) for one in made]
     lag, best = later(jaws, [line.jaw for line in lines])
     return {
         **told(found),
         "jaw": best,
         "jaw_later_ms": lag,
-        "jumps": round(float(np.sum([one.report.get("jumps", 0) for one in made])), 2),
+        "jumps": int(np.sum([one.report.get("jumps", 0) for one in made])),
         "phones": sum(len(line.speech.phones) for line in lines),
         "ms_per_line": round(1e3 * seconds / len(lines), 1),
     }
@@ -145,13 +146,13 @@ def by_loudness(lines: Sequence[Line]) -> dict[str, Any]:
         assert line.speech.sound is not None
         level = loudness(line.speech.sound)
         level = np.convolve(np.maximum(level, level.max() - 40), np.ones(9) / 9, "same")
-        heard.append(Curve(np.arange(len(level)) * STEP, level.astype(np.float64)))
+        heard.append(Curve(STEP * np.arange(len(level), dtype=np.float64), level))
     lag, best = later(heard, [line.face.opening for line in lines])
     jaw_lag, jaw = later(heard, [line.jaw for line in lines])
     return {"opening": best, "later_ms": lag, "jaw": jaw, "jaw_later_ms": jaw_lag}
 
 
-def build(takes: Path, out: Sequence[str], place: Path, what: str) -> MotionEngine:
+def build(takes: Path, out: Sequence[str], place: Path, what: str) -> Database:
     """Build a database by ear from all stretches but some."""
     folder = place / f"takes of {what}"
     folder.mkdir()
@@ -175,20 +176,29 @@ def build(takes: Path, out: Sequence[str], place: Path, what: str) -> MotionEngi
         open_ms=round(1e3 * opened, 1),
         components=len(database.basis),
     )
-    return MotionEngine(database)
+    return database
 
 
-def compare(what: str, engine: MotionEngine, lines: Sequence[Line]) -> None:
-    """Print each engine's figures on some lines."""
+def without(database: Database, name: str, place: Path) -> Database:
+    """The database without one of its takes."""
+    kept = [take for take in takes_of(database) if take.name != name]
+    made = build_of(place / f"without {name}", kept, database.settings)
+    keep_learnt(made)
+    return made
+
+
+def compare(what: str, databases: Sequence[Database], lines: Sequence[Line]) -> None:
+    """Print each engine's figures on some lines, each with a database of its own."""
     say(f"facegood, {what}: loudness", lines=len(lines), **by_loudness(lines))
     for search in SEARCHES:
-        one = MotionEngine(engine.database, search)
-        say(f"facegood, {what}: motion, {search}", **figures(one.animate, lines))
+        make = [MotionEngine(database, search).animate for database in databases]
+        say(f"facegood, {what}: motion, {search}", **figures(make, lines))
+    say(f"facegood, {what}: bigram", **figures([drawn] * len(lines), lines))
 
-    say(
-        f"facegood, {what}: bigram",
-        **figures(lambda speech: pipeline.animate(speech).animation, lines),
-    )
+
+def drawn(speech: Speech) -> Animation:
+    """What the bigram engine makes of what is heard."""
+    return pipeline.animate(speech).animation
 
 
 def main(place: Path) -> None:
@@ -196,14 +206,14 @@ def main(place: Path) -> None:
     takes = place / "takes"
     takes.mkdir()
     names = cut(takes)
-    out = names[3::EVERY]
-    engine = build(takes, out, place, "every sixth stretch left out")
-    lines = [read(takes, name) for name in out]
-    compare("syllables and words", engine, [li for li in lines if RUNNING not in li.name])
-    compare("running speech", engine, [li for li in lines if RUNNING in li.name])
-    out = [name for name in names if RUNNING in name]
-    engine = build(takes, out, place, "running speech left out")
-    compare("unseen running speech", engine, [read(takes, name) for name in out])
+    running = [name for name in names if RUNNING in name]
+    out = [name for name in names if name not in running][3::EVERY]
+    database = build(takes, out, place, "every sixth stretch left out")
+    compare("syllables and words", [database] * len(out), [read(takes, name) for name in out])
+    lines = [read(takes, name) for name in running]
+    compare("running speech", [without(database, name, place) for name in running], lines)
+    database = build(takes, running, place, "running speech left out")
+    compare("running speech, none known", [database] * len(lines), lines)
 
 
 if __name__ == "__main__":

@@ -5,8 +5,8 @@ of the acoustic model without their neighbours, and its pauses, searched exactly
 (:mod:`.align.viterbi`). The model knows American English only; a sound of another language
 is heard as the nearest of its phones. Boundaries are then moved as in alignment.
 
-The recogniser's own loop of phones in context (pocketsphinx, ``allphone``) is slower and
-less right; ``bench.by_ear`` has the figures.
+The recogniser's own loop (pocketsphinx, ``allphone``) is slower and less right;
+``bench.by_ear`` has the figures.
 """
 
 from __future__ import annotations
