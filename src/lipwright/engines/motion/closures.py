@@ -5,7 +5,8 @@ half of them are at most as open as the *level*. A closure that stays above it i
 its own least opening, toward the recorded closed frame that is most like it, just as far as
 the level asks. The pull rises and falls as a raised cosine, as wide as natural speed needs:
 no channel moves faster than nearly all recorded motion does, or than it did before. What
-is closed already is not touched.
+is closed already is not touched. Of phones that may have been heard wrongly, only those are
+pulled that recorded motion brings near to closed by itself.
 
 All of it is done on channels as they were recorded, not on components: what components
 leave out is little motion, but it is what parts the lips or lets them meet.
@@ -39,6 +40,8 @@ EDGE = 0.15
 """Share of a phone at either end in which its closure is not looked for."""
 QUICK = 99.9
 """Percentile of recorded speeds that counts as the greatest natural one."""
+BELIEVED = 0.35
+"""Share of a line's opening, from the level up, above which an unsure phone is no closure."""
 _TRIED = 17  # strengths of a pull that are tried at once, twice
 
 
@@ -126,6 +129,8 @@ def close(
     phones: Sequence[tuple[str, float, float]],
     closing: Closing,
     opening: Opening,
+    *,
+    unsure: bool = False,
 ) -> int:
     """Close the mouth in every phone that must be closed.
 
@@ -140,6 +145,8 @@ def close(
     closing : Closing
     opening : callable
         What the closing was learnt with.
+    unsure : bool
+        Whether phones may have been heard wrongly.
 
     Returns
     -------
@@ -147,6 +154,7 @@ def close(
         How many phones had to be pulled.
     """
     kinds = {label: kind for kind in closing.kinds for label in kind.labels}
+    widest = float(np.percentile(opening(motion), 95)) if unsure else np.inf
     pulled = 0
     for label, start, end in phones:
         kind = kinds.get(label.casefold())
@@ -155,7 +163,8 @@ def close(
         near = _inside(start, end, rate, len(motion))
         openings = opening(motion[near])
         best = int(openings.argmin())
-        if openings[best] > kind.level:
+        believed = kind.level + BELIEVED * max(widest - kind.level, 0.0)
+        if kind.level < openings[best] <= believed:
             hold = min(HOLD, 0.2 * (end - start))
             _pull(motion, rate, near.start + best, kind, closing, opening, hold)
             pulled += 1

@@ -114,7 +114,8 @@ class MotionEngine:
         spans[0, 0] = (first - 0.5) / rate
         heard = self._heard(speech)
         # Nobody vouches for phones of a confidence of 0: they were heard without words.
-        units, report = self._units(labels, spans, heard, unsure=speech.confidence == 0.0)
+        unsure = speech.confidence == 0.0
+        units, report = self._units(labels, spans, heard, unsure=unsure)
         joined = join(
             self.database,
             units,
@@ -125,6 +126,7 @@ class MotionEngine:
             opening=self._opening,
             phones=labels,
             pairs=self._pairs,
+            unsure=unsure,
         )
         return Animation(
             self.database.channels,
