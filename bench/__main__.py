@@ -26,6 +26,7 @@ MEASURES = (
     "held_out",
     "fitting",
     "motion",
+    "motion_by_ear",
     "motion_facegood",
     "motion_search",
     "motion_joining",
