@@ -116,8 +116,7 @@ def recognise(sound: Sound | str | Path, *, progress: Progress | None = None) ->
     from lipwright.schedule.recognise import recognise as listen
 
     with _named(sound):
-        heard = _sound(sound)
-        return _told(heard, listen(heard, progress=progress))
+        return _told(heard := _sound(sound), listen(heard, progress=progress))
 
 
 def hear(sound: Sound | str | Path, *, progress: Progress | None = None) -> Speech:
@@ -125,8 +124,7 @@ def hear(sound: Sound | str | Path, *, progress: Progress | None = None) -> Spee
     from lipwright.schedule.by_ear import hear as listen
 
     with _named(sound):
-        heard = _sound(sound)
-        return _told(heard, listen(heard, progress=progress))
+        return _told(heard := _sound(sound), listen(heard, progress=progress))
 
 
 def from_labels(

@@ -60,18 +60,18 @@ def test_takes_without_words_are_learnt_from(
     build = ["motion", "build", str(takes), "-o", str(target), "--workers", "1"]
     assert main(build) == 0
     told = capsys.readouterr()
-    assert told.out == f"{target}: 1 takes\n"
+    assert told.out.startswith(f"{target}: 1 takes")
     assert "two.csv: has no words" in told.err
     assert main([*build, "--by-ear"]) == 0
     told = capsys.readouterr()
-    assert told.out == f"{target}: 3 takes\n"
+    assert told.out.startswith(f"{target}: 3 takes")
     assert told.err.splitlines()[-1].startswith("note: takes without words: 2; ")
     more = tmp_path / "more"
     more.mkdir()
     for path in takes.glob("two.*"):
         (more / f"four{path.suffix}").write_bytes(path.read_bytes())
     assert main(["motion", "add", str(more), str(target), "--by-ear"]) == 0
-    assert capsys.readouterr().out == f"{target}: 4 takes\n"
+    assert capsys.readouterr().out.startswith(f"{target}: 4 takes")
 
 
 def test_a_line_by_ear_finds_its_take(takes: Path, tmp_path: Path) -> None:
