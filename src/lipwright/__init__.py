@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from lipwright.errors import InputError, LipwrightError, MissingExtraError, OutputError
     from lipwright.performance import Performance
     from lipwright.phones import PhoneTrack
-    from lipwright.pipeline import align, animate, from_labels, recognise, save, say
+    from lipwright.pipeline import align, animate, from_labels, hear, recognise, save, say
     from lipwright.sound import Sound
     from lipwright.sound_files import read_sound
     from lipwright.speech import Speech
@@ -48,6 +48,7 @@ _HOMES = {
     "align": "pipeline",
     "animate": "pipeline",
     "from_labels": "pipeline",
+    "hear": "pipeline",
     "load_character": "character",
     "load_set": "engines.bigram",
     "read_sound": "sound_files",
@@ -73,6 +74,7 @@ __all__ = [
     "align",
     "animate",
     "from_labels",
+    "hear",
     "load_character",
     "load_set",
     "read_sound",

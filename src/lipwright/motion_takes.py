@@ -123,6 +123,7 @@ def build_motion(
     texts: str | Path | None = None,
     clusters: int = 0,
     language: str = "en-us",
+    by_ear: bool = False,
     add: bool = False,
     workers: int | None = None,
     progress: Progress | None = None,
@@ -141,6 +142,9 @@ def build_motion(
         Into how many nodes units of like motion are merged; 0: they are not.
     language : str
         That is spoken.
+    by_ear : bool
+        Whether takes without words and labels are used too, their phones heard
+        (:mod:`lipwright.schedule.by_ear`).
     add : bool
         Whether the takes go behind those of a database that is there.
     workers : int, optional
@@ -160,7 +164,7 @@ def build_motion(
     from lipwright.engines.motion.database import Settings, open_database
     from lipwright.engines.motion.learnt import keep_learnt
 
-    found = find_takes(folder, texts)
+    found = [replace(take, by_ear=by_ear) for take in find_takes(folder, texts)]
     target = Path(database)
     _check(target)
     old = open_database(target) if add else None
@@ -173,8 +177,13 @@ def build_motion(
     if rest is not None:
         prepared, lost, short = with_same_markers(prepared, old.channels if old else None)
         notes, refused = [*notes, *lost], [*refused, *short]
+    heard = sum(take.has_only_sound for take in found)
     if not prepared:
-        raise InputError("no take can be used", where=str(folder), expected="; ".join(refused[:3]))
+        reasons = "; ".join(refused[:3])
+        cure = "" if by_ear or not heard else "takes without words are used with --by-ear"
+        raise InputError("no take can be used", where=str(folder), expected=reasons, cure=cure)
+    if by_ear and heard:
+        notes.append(f"takes without words: {heard}; their phones are heard, by an English model")
     if old is not None:
         made = append(target, prepared)
     else:
@@ -256,7 +265,7 @@ def _key(take: TakeFiles, how: _How) -> str:
     """What tells a take in its present state from any other."""
     paths = [path for path in (take.motion, take.sound, take.labels) if path is not None]
     state = [[str(path), file_version(str(path))] for path in paths]
-    text = json.dumps([_VERSION, take.name, take.text, how.state, state])
+    text = json.dumps([_VERSION, take.name, take.text, take.by_ear, how.state, state])
     return hashlib.sha256(text.encode()).hexdigest()[:24]
 
 
@@ -330,5 +339,5 @@ def _full_labels(track: PhoneTrack) -> PhoneTrack:
     """Return phones in ARPAbet, the notation of all databases."""
     if track.phone_set == "arpabet":
         return track
-    rows, _ = load_reduction(track.phone_set, "arpabet").rows(track.normalised())
+    rows, _ = load_reduction(track.phone_set, "arpabet").rows(track)
     return PhoneTrack(Tier(tuple(Interval(*row) for row in rows)), "arpabet")

@@ -117,8 +117,15 @@ def recognise(sound: Sound | str | Path, *, progress: Progress | None = None) ->
     from lipwright.schedule.recognise import recognise as listen
 
     with _named(sound):
-        heard = _sound(sound)
-        return _told(heard, listen(heard, progress=progress))
+        return _told(heard := _sound(sound), listen(heard, progress=progress))
+
+
+def hear(sound: Sound | str | Path, *, progress: Progress | None = None) -> Speech:
+    """Return a recording with the phones that it sounds like, in any language; no words."""
+    from lipwright.schedule.by_ear import hear as listen
+
+    with _named(sound):
+        return _told(heard := _sound(sound), listen(heard, progress=progress))
 
 
 def from_labels(
@@ -181,7 +188,7 @@ def animate(
     Parameters
     ----------
     speech : Speech
-        From :func:`say`, :func:`align`, :func:`recognise` or :func:`from_labels`.
+        From :func:`say`, :func:`align`, :func:`recognise`, :func:`hear` or :func:`from_labels`.
     engine : str
         ``"bigram"``, or ``"motion"``, which searches a ``database``.
     bigram_set : str or path, optional

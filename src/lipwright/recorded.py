@@ -8,14 +8,14 @@ those the bigram engine's curves are fitted to.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from lipwright.errors import InputError
+from lipwright.errors import InputError, SoundError
 from lipwright.phones import SILENCE, PhoneTrack
 from lipwright.sound import Sound
 from lipwright.timeline import Tier
@@ -155,6 +155,8 @@ def _speech(files: TakeFiles, sound: Sound | None, language: str) -> Speech:
 
     if files.labels is not None:
         return from_labels(files.labels, sound)
+    if sound is not None and files.by_ear and files.has_only_sound:
+        return _heard(sound, str(files.sound))
     if sound is None or not files.text:
         lacks = "sound" if sound is None else "words"
         raise InputError(
@@ -163,6 +165,16 @@ def _speech(files: TakeFiles, sound: Sound | None, language: str) -> Speech:
             expected="sound and words, or labels, beside it by name",
         )
     return align(sound, files.text, language=language)
+
+
+def _heard(sound: Sound, where: str) -> Speech:
+    """Return phones by ear; that they are doubtful is said once for all takes."""
+    from lipwright.pipeline import hear
+
+    try:
+        return replace(hear(sound), notes=sound.notes)
+    except SoundError as error:
+        raise error.at(where) from None
 
 
 def fit_set(

@@ -26,7 +26,8 @@ class Speech:
     language : str
         As the schedule names it (``"en-us"``).
     source : str
-        Which schedule made it: ``"say"``, ``"align"``, ``"recognise"``, ``"labels"``.
+        Which schedule made it: ``"say"``, ``"align"``, ``"recognise"``, ``"ear"``,
+        ``"labels"``.
     confidence : float or None
         How sure the schedule is of the whole line, 0..1.
     notes : tuple of str

@@ -193,7 +193,7 @@ def _closures(
     """Return how far each closing pose goes, (T, len(closing)), and how many phones ask it."""
     from lipwright.engines.bigram.classes import reduction_for
 
-    phones = animation.phones.normalised()
+    phones = animation.phones
     rows, _ = reduction_for(of, phones.phone_set).rows(phones)
     found, count = np.zeros((len(values), len(closing))), 0
     for label, start, end in rows:

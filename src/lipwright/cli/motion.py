@@ -31,6 +31,9 @@ _reading = options.stack(
         "--language", default="en-us", show_default=True, help="That is spoken in the takes."
     ),
     click.option(
+        "--by-ear", is_flag=True, help="Use takes without words too: their phones are heard.",
+    ),
+    click.option(
         "--workers", type=click.IntRange(1), metavar="N",
         help="Takes at once; one for each processor by default.",
     ),
@@ -67,7 +70,8 @@ def build(takes: Path, database: Path, report: Path | None, as_json: bool, **how
     """Build a database from a folder of recordings.
 
     TAKES holds motion (NAME.csv of blendshapes, NAME.c3d of markers) and beside it by name
-    sound and words (NAME.txt, or --text), or labels. A run that was stopped is gone on with.
+    sound and words (NAME.txt, or --text), or labels; sound alone with --by-ear. A run that was
+    stopped is gone on with.
     """
     _build(takes, database, report, as_json, **how)
 

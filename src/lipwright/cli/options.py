@@ -121,6 +121,10 @@ _recording = stack(
         "--language", metavar="NAME",
         help="What --text is in, such as de or pt-br; English where it is not given.",
     ),
+    click.option(
+        "--by-ear", is_flag=True,
+        help="Hear phones without words, in any language; words give better ones.",
+    ),
 )  # fmt: skip
 
 
@@ -141,6 +145,7 @@ class Recording:
     phone_set: str | None
     lexicon: Path | None
     language: str | None
+    by_ear: bool
 
     @property
     def files(self) -> tuple[object, ...]:

@@ -130,7 +130,8 @@ def animate(
     """Animate the recording SOUND.
 
     With --text its words are put in time, in any --language; with --labels phone times are
-    taken as they are; with neither the words are recognised (English).
+    taken as they are; with neither the words are recognised (English), or with --by-ear
+    phones are heard without words, in any language.
     """
     _check(outputs, how, *recording.files)
     speech = _speech(recording)
@@ -164,6 +165,8 @@ def _speech(given: Recording) -> Speech:
     named = [name for name, value in ways.items() if value is not None]
     if len(named) > 1:
         raise click.UsageError(f"give one of {' and '.join(named)}, not both")
+    if given.by_ear:
+        return _by_ear(given, named)
     if given.language is not None and (given.labels is not None or not named):
         raise click.UsageError(
             "--language goes with --text or --text-file: what is said is recognised in English only"
@@ -182,6 +185,17 @@ def _speech(given: Recording) -> Speech:
             lexicon=given.lexicon,
             progress=report,
         )
+
+
+def _by_ear(given: Recording, named: list[str]) -> Speech:
+    from lipwright import pipeline
+
+    others = {"--language": given.language, "--lexicon": given.lexicon}
+    others["--phone-set"] = given.phone_set
+    if strange := [*named, *(name for name, value in others.items() if value is not None)]:
+        raise click.UsageError(f"--by-ear needs no words: it does not go with {strange[0]}")
+    with progress("listening") as report:
+        return pipeline.hear(given.sound, progress=report)
 
 
 def read_text(path: Path) -> str:

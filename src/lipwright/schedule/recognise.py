@@ -1,13 +1,14 @@
 """Sound alone becomes words and phones: pocketsphinx with its own language model.
 
 The words that it hears are then aligned as if they were given (:mod:`.align`). Where it
-hears sounds but no words, a loop of phones stands in, so that the mouth still moves.
+hears sounds but no words, phones are taken by ear (:mod:`.by_ear`), so that the mouth still
+moves.
 American English only; names and rare words come out as what sounds like them.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 from itertools import groupby
@@ -16,16 +17,16 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from lipwright.errors import SoundError
 from lipwright.phones import SILENCE
-from lipwright.schedule.align.features import HOP, RATE
+from lipwright.schedule.align.features import RATE
 from lipwright.schedule.align.heard import NO_TOKEN, Heard
 from lipwright.schedule.align.lexicon import Spoken, look_up
 from lipwright.schedule.align.model import load_model, model_folder
 from lipwright.schedule.align.piece import align_piece
-from lipwright.schedule.align.prepare import LONGEST, cut, prepared
+from lipwright.schedule.align.prepare import pieces, prepared
 from lipwright.schedule.align.refine import refine
 from lipwright.schedule.align.speech import as_speech
+from lipwright.schedule.by_ear import hear
 from lipwright.sound import Sound
 from lipwright.speech import Speech
 from lipwright.timeline import Tier
@@ -34,7 +35,7 @@ if TYPE_CHECKING:
     from pocketsphinx import Decoder
 
 _DOUBTFUL = 0.5
-_FEWEST = 3  # phones that are speech; fewer are a click or a tone
+_WITHOUT_WORDS = "no words understood: phones only, by ear"
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,7 +68,7 @@ def recognise(sound: Sound, *, progress: Callable[[float], None] | None = None) 
     samples = prepared(sound)
     heard: list[Heard] = []
     words: list[_Word] = []
-    for start, stop in _pieces(samples):
+    for start, stop in pieces(samples):
         piece = samples[start:stop]
         found = _words(piece)
         heard += _placed(piece, found, start / RATE, len(words))
@@ -75,23 +76,14 @@ def recognise(sound: Sound, *, progress: Callable[[float], None] | None = None) 
         if progress:
             progress(stop / len(samples))
     if not words:
-        return _without_words(sound, samples)
+        return replace(hear(sound), source="recognise", notes=(_WITHOUT_WORDS,))
     labels = [word.spelling for word in words]
     speech = as_speech(heard, labels, sound, text=" ".join(labels), source="recognise")
     return _with_chances(speech, heard, words)
 
 
-def _pieces(samples: NDArray[np.float32]) -> Iterator[tuple[int, int]]:
-    at = 0
-    while len(samples) - at > LONGEST * RATE:
-        stop = cut(samples, at)
-        yield at, stop
-        at = stop
-    yield at, len(samples)
-
-
 def _words(samples: NDArray[np.float32]) -> list[_Word]:
-    decoder = _decoder("words")
+    decoder = _decoder()
     _run(decoder, samples)
     found = []
     for segment in decoder.seg() or ():
@@ -133,36 +125,6 @@ def _with_chances(speech: Speech, heard: Sequence[Heard], words: Sequence[_Word]
     )
 
 
-def _without_words(sound: Sound, samples: NDArray[np.float32]) -> Speech:
-    heard: list[Heard] = []
-    for start, stop in _pieces(samples):
-        heard += _phone_loop(samples[start:stop], start / RATE)
-    if sum(not phone.is_pause for phone in heard) < _FEWEST:
-        raise SoundError("no speech in it", expected="a voice", cure="check the recording")
-    speech = as_speech(heard, (), sound, text="", source="recognise")
-    return replace(speech, confidence=0.0, notes=("no words understood: phones only, by ear",))
-
-
-def _phone_loop(samples: NDArray[np.float32], seconds: float) -> list[Heard]:
-    decoder = _decoder("phones")
-    _run(decoder, samples)
-    frame = HOP / RATE
-    return [
-        Heard(
-            _label(segment.word),
-            seconds + segment.start_frame * frame,
-            seconds + (segment.end_frame + 1) * frame,
-            NO_TOKEN,
-            -3.0,
-        )
-        for segment in decoder.seg() or ()
-    ]
-
-
-def _label(name: str) -> str:
-    return SILENCE if name.startswith(("+", "<", "[")) else name.lower()
-
-
 def _run(decoder: Decoder, samples: NDArray[np.float32]) -> None:
     noise = np.random.default_rng(0).normal(0.0, 1.0, len(samples))
     pcm = np.clip(samples * 32767.0 + noise, -32768, 32767).astype(np.int16)
@@ -176,12 +138,15 @@ def _run(decoder: Decoder, samples: NDArray[np.float32]) -> None:
 
 
 @cache
-def _decoder(kind: str) -> Decoder:
+def _decoder() -> Decoder:
     from pocketsphinx import Decoder
 
     folder = model_folder() / "en-us"
-    common = {"hmm": str(folder / "en-us"), "samprate": RATE, "loglevel": "FATAL", "dither": False}
-    if kind == "words":
-        dictionary = str(folder / "cmudict-en-us.dict")
-        return Decoder(lm=str(folder / "en-us.lm.bin"), dict=dictionary, **common)
-    return Decoder(allphone=str(folder / "en-us-phone.lm.bin"), lm=None, dict=None, **common)
+    return Decoder(
+        hmm=str(folder / "en-us"),
+        lm=str(folder / "en-us.lm.bin"),
+        dict=str(folder / "cmudict-en-us.dict"),
+        samprate=RATE,
+        loglevel="FATAL",
+        dither=False,
+    )

@@ -130,6 +130,18 @@ def test_a_deep_closure_takes_the_time_that_it_needs() -> None:
     assert widths[1] <= 2 * max(closures.WIDTHS) * RATE + 1
 
 
+def test_an_unsure_p_is_closed_only_where_the_motion_is_nearly_closed() -> None:
+    data = spoken()
+    dip = np.exp(-(((np.arange(80) - 36) / 8) ** 2))
+    for depth, expected in ((0.1, 0), (0.4, 1)):
+        frames = np.stack((0.5 - depth * dip, np.full(80, 0.5)), axis=1)
+        found = frames.copy()
+        phones = [("p", 0.27, 0.33)]
+        assert close(found, RATE, phones, learnt(data), openings, unsure=True) == expected
+        assert (found == frames).all() == (not expected)
+        assert close(frames, RATE, phones, learnt(data), openings) == 1
+
+
 def test_opening_knows_the_names_of_arkit_in_any_case() -> None:
     opening = opening_of(["JawOpen", "mouthclose", "MouthLowerDownLeft", "browInnerUp"])
     assert opening is not None

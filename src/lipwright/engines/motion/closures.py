@@ -6,6 +6,8 @@ its own least opening, toward the recorded closed frame that is most like it, ju
 the level asks. The pull rises and falls as a raised cosine, as wide as natural speed needs:
 no channel moves faster than nearly all recorded motion does, or than it did before. What
 is closed already is not touched: a pull ends where a closure of the other kind is at its best.
+Of phones that may have been heard wrongly, only those are pulled that recorded motion brings
+near to closed by itself.
 
 All of it is done on channels as they were recorded, not on components: what components
 leave out is little motion, but it is what parts the lips or lets them meet.
@@ -45,6 +47,8 @@ EDGE = 0.15
 QUICK = 99.9
 """Percentile of recorded speeds that counts as the greatest natural one."""
 _POSES = ("open", "pbm", "fv")  # what opens, and what makes each kind of closure
+BELIEVED = 0.35
+"""Share of a line's opening, from the level up, above which an unsure phone is no closure."""
 _TRIED = 17  # strengths of a pull that are tried at once, twice
 
 
@@ -139,6 +143,8 @@ def close(
     phones: Sequence[tuple[str, float, float]],
     closing: Closing,
     opening: Opening,
+    *,
+    unsure: bool = False,
 ) -> int:
     """Close the mouth in every phone that must be closed.
 
@@ -153,6 +159,8 @@ def close(
     closing : Closing
     opening : callable
         What the closing was learnt with.
+    unsure : bool
+        Whether phones may have been heard wrongly.
 
     Returns
     -------
@@ -165,10 +173,14 @@ def close(
         for label, start, end in phones
         if (name := label.casefold()) in kinds
     ]
+    believed = {
+        kind.labels: _believed(motion, kind, opening) if unsure else np.inf
+        for kind in closing.kinds
+    }
     pulled = 0
     for place, (kind, near, hold) in enumerate(asked):
         middle, least = _least(motion, near, kind, opening)
-        if least <= kind.level:
+        if not kind.level < least <= believed[kind.labels]:
             continue
         # What closes before and behind it in the other way must not be undone.
         beside = [
@@ -180,6 +192,12 @@ def close(
         _pull(motion, rate, middle, kind, closing, opening, hold, room)
         pulled += 1
     return pulled
+
+
+def _believed(motion: Floats, kind: Closed, opening: Opening) -> float:
+    """Return how open an unsure closure may be before it is pulled."""
+    widest = float(np.percentile(_apart(opening, motion, kind.labels), 95))
+    return kind.level + BELIEVED * max(widest - kind.level, 0.0)
 
 
 def _least(motion: Floats, near: slice, kind: Closed, opening: Opening) -> tuple[int, float]:

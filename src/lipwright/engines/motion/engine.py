@@ -121,7 +121,9 @@ class MotionEngine:
         # Joining looks at the middles of frames: the first of them is to be at `first`.
         spans[0, 0] = (first - 0.5) / rate
         heard = self._heard(speech)
-        units, report = self._units(labels, spans, heard)
+        # Nobody vouches for phones of a confidence of 0: they were heard without words.
+        unsure = speech.confidence == 0.0
+        units, report = self._units(labels, spans, heard, unsure=unsure)
         joined = join(
             self.database,
             units,
@@ -132,6 +134,7 @@ class MotionEngine:
             opening=self._known.opening,
             phones=labels,
             pairs=self._pairs,
+            unsure=unsure,
         )
         return Animation(
             self.database.channels,
@@ -153,7 +156,7 @@ class MotionEngine:
         LabelError
             If phones are unknown.
         """
-        track = speech.phones.normalised()
+        track = speech.phones
         reduction = load_reduction(track.phone_set, self.database.phone_set)
         found, _ = reduction.rows(track)
         if not found:
@@ -175,7 +178,12 @@ class MotionEngine:
         return rasta_plp(speech.sound, self.database.rate)
 
     def _units(
-        self, labels: Sequence[str], spans: NDArray[np.float64], heard: Features | None
+        self,
+        labels: Sequence[str],
+        spans: NDArray[np.float64],
+        heard: Features | None,
+        *,
+        unsure: bool,
     ) -> tuple[NDArray[np.int64], dict[str, Any]]:
         """Return the paths of units, and what is to be said of them."""
         sound = None
@@ -198,7 +206,9 @@ class MotionEngine:
             wanted, missing = label_indices(self.database, labels, self._class_of)
             lengths = spans[:, 1] - spans[:, 0]
             count = PATHS[self.search]
-            units = several(self.database, wanted, lengths, self._classes, sound, count)
+            units = several(
+                self.database, wanted, lengths, self._classes, sound, count, unsure=unsure
+            )
             told = {"paths": len(units)}
         return units, {
             "database": self.name,

@@ -143,6 +143,7 @@ def join(
     opening: Opening | None = None,
     phones: Sequence[str] | None = None,
     pairs: Pairs | None = None,
+    unsure: bool = False,
 ) -> Joined:
     """Turn a path of units into a motion.
 
@@ -168,6 +169,8 @@ def join(
         Also tells which phones must be closed.
     pairs : callable, optional
         Finds connected pairs; a :class:`PairTable` is made where it is left out.
+    unsure : bool
+        Whether ``phones`` may have been heard wrongly.
 
     Raises
     ------
@@ -188,7 +191,7 @@ def join(
     motion, pulled = motion_of(data, frames), 0
     if learnt is not None and learnt.closing is not None and opening is not None:
         timed = zip(courses[0].spoken, *(held - start).T.tolist(), strict=True)
-        pulled = close(motion, rate, list(timed), learnt.closing, opening)
+        pulled = close(motion, rate, list(timed), learnt.closing, opening, unsure=unsure)
     return Joined(
         motion=motion.astype(np.float32),
         components=frames,

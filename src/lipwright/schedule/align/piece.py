@@ -44,7 +44,26 @@ def align_piece(
     tuple of Heard
         Empty if the piece is too short for the words.
     """
-    network = build_network(model, tokens, entries=entries)
+    return through(model, build_network(model, tokens, entries=entries), samples, whole=whole)
+
+
+def through(
+    model: AcousticModel, network: Network, samples: NDArray[np.float32], *, whole: bool = True
+) -> tuple[Heard, ...]:
+    """Return the phones of the most likely path of a piece through any network.
+
+    Parameters
+    ----------
+    samples : (N,) float32
+        At 16 kHz.
+    whole : bool
+        Whether the path has to reach the network's end.
+
+    Returns
+    -------
+    tuple of Heard
+        Without gaps; empty if the piece is too short.
+    """
     needed, places = columns(network)
     plain = model.triphones.senones[: len(model.phones)].reshape(-1)
     features = with_changes(cepstra(samples))

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -81,6 +83,22 @@ def cut(samples: NDArray[np.float32], at: int) -> int:
     sums = power[: len(power) // step * step].reshape(-1, step).sum(axis=1)
     quietest = int(np.convolve(sums, np.ones(20), "valid").argmin())
     return first + (quietest + 10) * step
+
+
+def pieces(samples: NDArray[np.float32]) -> Iterator[tuple[int, int]]:
+    """Give first and last sample of pieces of at most 45 s, cut where it is quiet.
+
+    Parameters
+    ----------
+    samples : (N,) float32
+        At 16 kHz.
+    """
+    at = 0
+    while len(samples) - at > LONGEST * RATE:
+        stop = cut(samples, at)
+        yield at, stop
+        at = stop
+    yield at, len(samples)
 
 
 def _parts(samples: NDArray[np.float32]) -> list[NDArray[np.float32]]:

@@ -36,6 +36,8 @@ class TakeFiles:
     sound, labels : Path or None
     text : str or None
         The words that are said, where they are known.
+    by_ear : bool
+        Whether phones may be heard where neither words nor labels are known.
     """
 
     name: str
@@ -43,6 +45,12 @@ class TakeFiles:
     sound: Path | None = None
     text: str | None = None
     labels: Path | None = None
+    by_ear: bool = False
+
+    @property
+    def has_only_sound(self) -> bool:
+        """Whether there is sound, and nothing says what is spoken in it."""
+        return self.sound is not None and not self.text and self.labels is None
 
 
 def find_takes(folder: str | Path, texts: str | Path | None = None) -> list[TakeFiles]:

@@ -6,6 +6,9 @@ unit sounds, what its neighbours are, and how long it is; each path is the cheap
 (dynamic programming), and units that a path used cost more for the next. With one path it
 is a search by cost alone, in which a unit that moves unusually costs more: there is no mean
 that would make up for it. The publication's searches put the fewest jumps first.
+
+Phones that were heard without words are often wrong, in the takes as in the line. There a
+unit of any phone may stand for another, at a cost, and how it sounds counts twice.
 """
 
 from __future__ import annotations
@@ -38,6 +41,9 @@ USED = 1.5
 UNUSUAL = 1.0
 """What a unit's motion costs, of a lone path, that is as far from the usual as motion is from
 its mean."""
+OTHER, OTHER_ALIKE = 1.0, 0.3
+"""What a unit of another phone costs where phones are unsure; of the same class, less."""
+UNSURE_SOUND = 2.0
 _SHORTEST = 0.02
 
 
@@ -56,6 +62,8 @@ def several(
     classes: NDArray[np.integer],
     sound: NDArray[np.float32] | None = None,
     paths: int = PATHS,
+    *,
+    unsure: bool = False,
 ) -> Nodes:
     """Return several paths of units for some phones, the cheapest first.
 
@@ -72,6 +80,8 @@ def several(
         Of the wanted phones, as the database keeps that of its units.
     paths : int
         How many; of more than one the mean is taken, so that unusual units do not matter.
+    unsure : bool
+        Whether labels may be wrong, those of the database too; it needs ``sound``.
 
     Returns
     -------
@@ -86,7 +96,8 @@ def several(
             float(lengths[place]),
             classes,
             sound,
-            UNUSUAL if paths == 1 else 0.0,
+            unusual=UNUSUAL if paths == 1 else 0.0,
+            unsure=unsure,
         )
         for place in range(len(asked))
     ]
@@ -107,16 +118,18 @@ def _phone(
     length: float,
     classes: NDArray[np.integer],
     sound: NDArray[np.float32] | None,
+    *,
     unusual: float,
+    unsure: bool,
 ) -> _Phone:
-    label = wanted[place]
-    first, last = database.label_first[label : label + 2].tolist()
-    step = max(1, -(-(last - first) // LOOKED_AT))
-    units = np.asarray(database.by_label[first:last:step], np.int64)
+    units = _having(database, wanted[place])
     cost = np.zeros(len(units))
     if sound is not None:
+        if unsure:
+            units, cost = _any(database, units, wanted[place], classes)
         away = database.unit_sound[units] - sound[place]
-        cost += np.sqrt(np.einsum("ud,ud->u", away, away) / away.shape[1])
+        far = np.sqrt(np.einsum("ud,ud->u", away, away) / away.shape[1])
+        cost += UNSURE_SOUND * far if unsure else far
     before = wanted[place - 1] if place else -1
     after = wanted[place + 1] if place + 1 < len(wanted) else -1
     cost += _strangeness(database, units, -1, before, classes)
@@ -129,6 +142,24 @@ def _phone(
         best = np.argpartition(cost, KEPT)[:KEPT]
         units, cost = units[best], cost[best]
     return _Phone(units, cost)
+
+
+def _having(database: Database, label: int) -> Nodes:
+    """Return the units of a label that are looked at."""
+    first, last = database.label_first[label : label + 2].tolist()
+    step = max(1, -(-(last - first) // LOOKED_AT))
+    return np.asarray(database.by_label[first:last:step], np.int64)
+
+
+def _any(
+    database: Database, own: Nodes, label: int, classes: NDArray[np.integer]
+) -> tuple[Nodes, Floats]:
+    """Return units of any label, ``own`` among them, and what it costs that they are others."""
+    step = max(1, -(-len(database.label) // LOOKED_AT))
+    units = np.union1d(own, np.arange(0, len(database.label), step))
+    labels = database.label[units]
+    alike = np.where(classes[labels] == classes[label], OTHER_ALIKE, OTHER)
+    return units, np.where(labels == label, 0.0, alike)
 
 
 def _strangeness(
