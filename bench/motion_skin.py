@@ -11,7 +11,8 @@ from collections.abc import Iterator
 
 import numpy as np
 from numpy.typing import NDArray
-from tests.engines.motion.capture.made import RATE, motion, spoil, spread
+from tests.engines.motion.capture.made import motion, spoil
+from tests.marker_layouts import layout_on
 
 from bench.measure import milliseconds, say
 from bench.motion_capture import HEAD, MARKERS, at_rate
@@ -24,39 +25,7 @@ from lipwright.marker_faces import FaceMesh, MarkerLayout, bind, drive, read_fac
 
 Floats = NDArray[np.float64]
 TAKES, STEP = 12, 12
-AROUND = 36
-BORDERS = {1.0: 0.006, 0.0: 0.007}
-"""Metres from where the lips meet to the red's border, on the upper and the lower lip."""
 LIPS, FACE = 0.009, 0.13
-
-
-def layout_on(face: FaceMesh) -> list[int]:
-    """Vertices for the markers."""
-    points, line = face.points, face.line
-    apart = np.linalg.norm(points[:, None] - line[None], axis=2).min(axis=1)
-    front = face.outward & (points[:, 2] > np.quantile(points[face.outward, 2], 0.3))
-    front &= points[:, 1] > line[:, 1].mean() - 1.6 * face.width
-    chosen = list(face.mouth.corners)
-    for side, border in BORDERS.items():
-        for place in np.linspace(-0.42, 0.42, 9) * face.width:
-            narrow = border * np.sqrt(1 - (place / (0.55 * face.width)) ** 2)
-            lip = np.flatnonzero(front & (np.abs(face.sides - side) < 0.01))
-            off = np.abs(apart[lip] - narrow) + np.abs(points[lip, 0] - place)
-            chosen.append(int(lip[np.argmin(off)]))
-    chosen = list(dict.fromkeys(chosen))
-    about = front & (np.linalg.norm(points - line.mean(axis=0), axis=1) < face.width)
-    chosen = farthest(points, chosen, np.flatnonzero(about), AROUND)
-    return farthest(points, chosen, np.flatnonzero(front), MARKERS - len(chosen))
-
-
-def farthest(points: Floats, chosen: list[int], pool: NDArray[np.intp], count: int) -> list[int]:
-    """Add the points of a pool that lie farthest from all that are chosen."""
-    chosen = list(chosen)
-    near = np.linalg.norm(points[pool][:, None] - points[chosen][None], axis=2).min(axis=1)
-    for _ in range(count):
-        chosen.append(int(pool[np.argmax(near)]))
-        near = np.minimum(near, np.linalg.norm(points[pool] - points[chosen[-1]], axis=1))
-    return chosen
 
 
 def regions(face: FaceMesh) -> dict[str, NDArray[np.intp]]:

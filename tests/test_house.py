@@ -19,7 +19,7 @@ LAYERS = [
     ("animation", "speech"),
     ("performance",),
     ("schedule", "engines", "character", "export", "evaluate"),
-    ("casting",),
+    ("casting", "marker_faces"),
     ("pipeline", "corpus", "motion_takes", "recorded"),
     ("cli",),
 ]

@@ -165,9 +165,7 @@ def _polished(
     return _judged(layout, ground, pins, found)
 
 
-def _step(
-    arms: Floats, offsets: Floats, normals: Floats, weights: Floats, along: Floats
-) -> Floats:
+def _step(arms: Floats, offsets: Floats, normals: Floats, weights: Floats, along: Floats) -> Floats:
     """Return the small turn, shift and growth, (7,), that meet planes, and points a little."""
     moves = np.zeros((len(arms), 3, 7))
     for axis in range(3):
@@ -178,9 +176,7 @@ def _step(
     system = np.einsum("mia,m,mij,mjb->ab", moves, weights, parts, moves)
     right = np.einsum("mia,m,mij,mj->a", moves, weights, parts, offsets)
     scale = np.sqrt(np.maximum(np.diag(system), 1e-30))
-    solved = np.linalg.solve(
-        system / np.outer(scale, scale) + 1e-9 * np.eye(7), right / scale
-    )
+    solved = np.linalg.solve(system / np.outer(scale, scale) + 1e-9 * np.eye(7), right / scale)
     return np.asarray(solved / scale)
 
 
@@ -197,9 +193,7 @@ def _stepped(
     return Alignment(turn @ found.turn, scale, shift)
 
 
-def _with_pins(
-    target: Floats, weights: Floats, pins: dict[int, Floats]
-) -> tuple[Floats, Floats]:
+def _with_pins(target: Floats, weights: Floats, pins: dict[int, Floats]) -> tuple[Floats, Floats]:
     target, weights = target.copy(), weights.copy()
     for marker, point in pins.items():
         target[marker], weights[marker] = point, _PINNED

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from lipwright.engines.motion.skin import Skin, bind_skin, smooth
 from lipwright.gltf import Gltf
 from lipwright.marker_faces.binding import Binding
-from lipwright.marker_faces.face_mesh import FaceMesh, Flags
+from lipwright.marker_faces.face_mesh import FaceMesh
 from lipwright.marker_faces.layout import MarkerLayout
 from lipwright.marker_faces.writing import with_targets
 
@@ -28,6 +28,7 @@ _STEP = "markers {}"
 _TIGHT, _LOOSE = 0.02, 0.15
 """Of the mouth's width: what is nearer to the skin goes with it, what is farther does not."""
 _BELOW = 0.2
+_CORNER = 0.1
 _OWN_WAY = 0.3
 _AT_ONCE = 512
 
@@ -94,7 +95,7 @@ def drive(layout: MarkerLayout, face: FaceMesh, binding: Binding) -> MarkerFace:
     steps = np.concatenate([layout.mean[None], deviations[:, None, None] * layout.basis])
     moves = binding.alignment.moved(steps)
     rows = np.flatnonzero(face.skin)
-    sides = np.array([each.shares @ face.sides[each.corners] for each in binding.placed])
+    sides = marker_sides(face, binding)
     skin = bind_skin(face.points[rows], face.sides[rows], binding.points, sides)
     inner = _inner(face, binding.points, sides, moves)
     whole = np.where(face.still[:, None], 0.0, inner)
@@ -104,9 +105,17 @@ def drive(layout: MarkerLayout, face: FaceMesh, binding: Binding) -> MarkerFace:
     beside = share[:, None] * whole[:, nearest] + (1 - share[:, None]) * inner[:, loose]
     whole[:, loose] = beside
     names = (MEAN, *(_STEP.format(number + 1) for number in range(len(layout.basis))))
-    return MarkerFace(
-        face.name, with_targets(face, names, whole), names, steps, deviations, skin
-    )
+    return MarkerFace(face.name, with_targets(face, names, whole), names, steps, deviations, skin)
+
+
+def marker_sides(face: FaceMesh, binding: Binding) -> Floats:
+    """Return the side (M,) of each marker; that on a corner of the mouth belongs to both."""
+    sides = np.array([each.shares @ face.sides[each.corners] for each in binding.placed])
+    for corner in face.mouth.corners:
+        far = np.linalg.norm(binding.points - face.points[corner], axis=1)
+        if far.min() < _CORNER * face.width:
+            sides[far.argmin()] = 0.5
+    return sides
 
 
 def _inner(face: FaceMesh, markers: Floats, sides: Floats, moves: Floats) -> Floats:
@@ -129,9 +138,7 @@ def _inner(face: FaceMesh, markers: Floats, sides: Floats, moves: Floats) -> Flo
     parts = np.linalg.lstsq(system, moves[:, chin].reshape(len(moves), -1).T, rcond=None)[0].T
     carried = smooth(np.linalg.norm(face.opening, axis=1) / (_OWN_WAY * size))
     aside = parts[:, 1:] @ across
-    return np.asarray(
-        parts[:, 0, None, None] * face.opening + carried[:, None] * aside[:, None, :]
-    )
+    return np.asarray(parts[:, 0, None, None] * face.opening + carried[:, None] * aside[:, None, :])
 
 
 def _chin(face: FaceMesh, markers: Floats, sides: Floats) -> Indices:
@@ -160,6 +167,3 @@ def _close(face: FaceMesh, loose: Indices, rows: Indices) -> tuple[Indices, Floa
         far[at : at + _AT_ONCE] = np.linalg.norm(part - skin[found], axis=1)
     share = (far / face.width - _TIGHT) / (_LOOSE - _TIGHT)
     return nearest, 1.0 - smooth(share)
-
-
-__all__ = ["MEAN", "Flags", "MarkerFace", "drive"]

@@ -7,6 +7,7 @@ mouth takes down.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -63,6 +64,39 @@ class MarkerLayout:
         if float(np.linalg.norm(self.opening, axis=1).max()) < _STILL:
             raise InputError("markers that do not move", where=self.where)
 
+    @classmethod
+    def of(
+        cls,
+        channels: Sequence[str],
+        rest: Floats,
+        mean: Floats,
+        basis: Floats,
+        variance: Floats,
+        where: str = "markers",
+    ) -> MarkerLayout:
+        """Return the layout of a database's channels.
+
+        Parameters
+        ----------
+        channels : sequence of str
+            ``"chin.x", "chin.y", "chin.z", …``
+        rest : (M, 3) float64, metres
+        mean : (3 M,) float64, metres
+        basis : (K, 3 M) float64
+        variance : (K,) float64
+        where : str
+        """
+        labels = tuple(name.removesuffix(".x") for name in channels[::3])
+        places = (len(labels), 3)
+        return cls(
+            labels,
+            np.asarray(rest, np.float64).reshape(places),
+            np.asarray(mean, np.float64).reshape(places),
+            np.asarray(basis, np.float64).reshape(-1, *places),
+            np.asarray(variance, np.float64),
+            where,
+        )
+
     @cached_property
     def opening(self) -> Floats:
         """The motion that there is most of, away from rest, (M, 3), one standard step of it."""
@@ -71,7 +105,7 @@ class MarkerLayout:
         ).reshape(1 + len(self.basis), -1)
         _, sizes, ways = np.linalg.svd(moves, full_matrices=False)
         way = sizes[0] * ways[0].reshape(-1, 3)
-        return way if float((way * self.mean).sum()) >= 0 else -way
+        return np.asarray(way if float((way * self.mean).sum()) >= 0 else -way)
 
     @cached_property
     def axes(self) -> Floats:
@@ -94,17 +128,19 @@ class MarkerLayout:
         down = -(self.opening @ self.axes[1])
         down = down if down[np.argmax(np.abs(down))] > 0 else -down
         most = float(np.quantile(down, _MOST)) or float(down.max())
-        return np.clip(down / most, 0.0, 1.0)
+        return np.asarray(np.clip(down / most, 0.0, 1.0))
 
 
 def _bulge(points: Floats) -> Floats:
-    """Return where a shell of points bulges: away from the middle of the sphere through them."""
+    """Return where a shell of points bulges: away from the middle of the sphere through them.
+
+    The side is the sphere's; of a shallow shell its own plane tells the direction better.
+    """
     middle = points.mean(axis=0)
     offset = points - middle
     system = np.concatenate([2 * offset, np.ones((len(points), 1))], axis=1)
     found = np.linalg.lstsq(system, (offset**2).sum(axis=1), rcond=1e-3)[0]
     flat = np.linalg.svd(offset, full_matrices=False)[2][2]
-    # The side is the sphere's; of a shallow shell its own plane tells the direction better.
     away = -found[:3] / (np.linalg.norm(found[:3]) or 1.0)
     way = flat if flat @ away >= 0 else -flat
     mixed = way + away

@@ -16,7 +16,15 @@ from lipwright.character.plain.surfaces import Surface as PlainSurface
 from lipwright.character.shading import Shading
 from lipwright.character.surfaces import Surface
 from lipwright.errors import CharacterError
-from lipwright.gltf import VERTICES, Gltf, GltfWriter, MorphMesh, morph_meshes, structure
+from lipwright.gltf import (
+    VERTICES,
+    Gltf,
+    GltfWriter,
+    MorphMesh,
+    morph_meshes,
+    read_accessor,
+    structure,
+)
 from lipwright.marker_faces.face_mesh import FaceMesh
 
 Floats = NDArray[np.float64]
@@ -61,17 +69,32 @@ def _written(face: FaceMesh, names: Sequence[str], moves: Floats) -> Gltf:
         own = moves[:, start : start + len(part.points)]
         if part.place not in parts:  # a mesh that two nodes show moves as the first of them
             parts[part.place] = (part, _local(face, part, own))
-    for mesh in sorted({mesh for mesh, _ in parts}):
-        if any(parts[place][1].any() for place in parts if place[0] == mesh):
-            _add(writer, mesh, known.get(mesh), names, parts)
+    for mesh in sorted({place[0] for place, (_, own) in parts.items() if own.any()}):
+        _add(writer, mesh, known.get(mesh), names, parts)
+        if mesh in known:
+            _lengthen(writer, face.model, known[mesh], len(names))
     return writer.finish()
+
+
+def _lengthen(writer: GltfWriter, model: Gltf, mesh: MorphMesh, added: int) -> None:
+    """Give the model's own animations of a mesh a weight of 0 for each new target."""
+    for animation in writer.json.get("animations", ()):
+        numbers = {
+            channel["sampler"]
+            for channel in animation["channels"]
+            if channel["target"].get("path") == "weights"
+            and channel["target"].get("node") in mesh.nodes
+        }
+        for number in sorted(numbers):
+            sampler = animation["samplers"][number]
+            old = read_accessor(model, sampler["output"]).astype(np.float32)
+            rows = np.pad(old.reshape(-1, len(mesh.targets)), ((0, 0), (0, added)))
+            sampler["output"] = writer.accessor(rows.ravel())
 
 
 def _local(face: FaceMesh, part: Surface, moves: Floats) -> Floats:
     """Return displacements (K, V, 3) in the mesh's own space."""
-    moves = np.where(
-        (np.linalg.norm(moves, axis=2) < _STILL * face.width)[:, :, None], 0.0, moves
-    )
+    moves = np.where((np.linalg.norm(moves, axis=2) < _STILL * face.width)[:, :, None], 0.0, moves)
     matrices = (part.still + part.turning)[:, :3, :3]
     if len(matrices) and (matrices == matrices[0]).all():
         back = np.linalg.pinv(matrices[0]) @ face.surfaces.axes.T

@@ -6,10 +6,12 @@ not move together: each vertex has a *side*, 1 on the upper lip, 0 on the lower,
 from one to the other beside the corners of the mouth; what lies wholly on one side follows
 no marker that lies wholly on the other. And what is far from all markers does not move.
 
-The kernel is the distance itself, the biharmonic one of three dimensions, with a constant:
-it meets the markers, never overshoots far between them as its cube does, and beyond the
-last of them it levels off. All of it is linear in the markers and computed once, into one
-matrix. Lengths are the mesh's own; nothing is known here of characters.
+The kernel is Hardy's multiquadric (1971), the distance rounded off at its foot, with a
+constant: the distance is the biharmonic kernel of three dimensions, which overshoots beyond
+the markers of the lips less than its cube, but leaves a cusp at each of them, which one
+sees. It meets the markers and levels off behind the last of them. All is linear in the
+markers and computed once, into one matrix. Lengths are the mesh's own; nothing is known
+here of characters.
 """
 
 from __future__ import annotations
@@ -27,6 +29,8 @@ _BAND = 0.1
 _PULL = 1e-7
 _EXACT, _MOST_STEPS = 1e-6, 4000
 _RIDGE = 1e-7
+_ROUND, _CLOSEST = 0.5, 0.1
+"""The kernel's foot is half of the spacing of the closest tenth of the markers."""
 _FULL, _GONE = 1.5, 6.0
 """Skin moves wholly up to so many spacings of the markers from the next one, and not beyond."""
 
@@ -86,27 +90,37 @@ def bind_skin(
 def interpolation(points: Floats, markers: Floats) -> Floats:
     """Return weights (V, M) by which points take the values at markers, meeting them."""
     count = len(markers)
-    system = np.ones((count + 1, count + 1))
-    system[:count, :count] = -_distances(markers, markers)
+    apart = _distances(markers, markers)
+    foot = _ROUND * float(np.quantile(_nearest(apart), _CLOSEST)) if count > 1 else 1.0
+    kernel: Floats = -np.sqrt(apart**2 + foot**2)
+    size = float(np.abs(kernel).max()) or 1.0
+    system: Floats = np.ones((count + 1, count + 1))
+    system[:count, :count] = kernel / size + _RIDGE * np.eye(count)
     system[count, count] = 0.0
-    size = float(np.abs(system[:count, :count]).max()) or 1.0
-    system[:count, :count] = system[:count, :count] / size + _RIDGE * np.eye(count)
-    columns = np.ones((len(points), count + 1))
-    columns[:, :count] = -_distances(points, markers) / size
+    columns: Floats = np.ones((len(points), count + 1))
+    columns[:, :count] = -np.sqrt(_distances(points, markers) ** 2 + foot**2) / size
     # The system is symmetric: what it solves for the points are the weights themselves.
     found: Floats = np.linalg.solve(system, columns.T)[:count].T
     return found
 
 
 def _distances(one: Floats, other: Floats) -> Floats:
-    return np.asarray(np.linalg.norm(one[:, None] - other[None], axis=2))
+    squares = np.zeros((len(one), len(other)))
+    for axis in range(3):
+        squares += np.subtract.outer(one[:, axis], other[:, axis]) ** 2
+    return np.asarray(np.sqrt(squares))
+
+
+def _nearest(apart: Floats) -> Floats:
+    """Return the distance of each marker (M,) to the next, given all distances (M, M)."""
+    return np.asarray((apart + np.diag(np.full(len(apart), np.inf))).min(axis=1))
 
 
 def fading(points: Floats, markers: Floats) -> Floats:
     """Return by how much points (V,) move at all, 1 about the markers and 0 far from them."""
     near = _distances(points, markers).min(axis=1)
-    apart = _distances(markers, markers) + np.diag(np.full(len(markers), np.inf))
-    spacing = float(np.median(apart.min(axis=1))) if len(markers) > 1 else 1.0
+    apart = _nearest(_distances(markers, markers))
+    spacing = float(np.median(apart)) if len(markers) > 1 else 1.0
     return 1.0 - smooth((near / (spacing or 1.0) - _FULL) / (_GONE - _FULL))
 
 
