@@ -54,7 +54,7 @@ def test_targets_do_what_the_markers_do() -> None:
         assert skin == pytest.approx(driven().skin.moved(steps), abs=2e-5)
         seen = head().outward[rows] & (head().points[rows, 2] > 0.02)
         off = np.linalg.norm(skin - true[rows], axis=1)[seen]
-        assert np.sqrt(np.mean(off**2)) < 0.0012
+        assert np.sqrt(np.mean(off**2)) < 0.0015
 
 
 def test_coefficients_and_displacements_give_the_same_weights() -> None:

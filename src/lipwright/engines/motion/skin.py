@@ -92,7 +92,7 @@ def interpolation(points: Floats, markers: Floats) -> Floats:
     count = len(markers)
     apart = _distances(markers, markers)
     foot = _ROUND * float(np.quantile(_nearest(apart), _CLOSEST)) if count > 1 else 1.0
-    kernel: Floats = -np.sqrt(apart**2 + foot**2)
+    kernel = np.asarray(-np.sqrt(apart**2 + foot**2), np.float64)
     size = float(np.abs(kernel).max()) or 1.0
     system: Floats = np.ones((count + 1, count + 1))
     system[:count, :count] = kernel / size + _RIDGE * np.eye(count)
@@ -100,8 +100,8 @@ def interpolation(points: Floats, markers: Floats) -> Floats:
     columns: Floats = np.ones((len(points), count + 1))
     columns[:, :count] = -np.sqrt(_distances(points, markers) ** 2 + foot**2) / size
     # The system is symmetric: what it solves for the points are the weights themselves.
-    found: Floats = np.linalg.solve(system, columns.T)[:count].T
-    return found
+    found = np.linalg.solve(system, columns.T)[:count].T
+    return np.asarray(found, np.float64)
 
 
 def _distances(one: Floats, other: Floats) -> Floats:
