@@ -77,7 +77,7 @@ def measure() -> None:
     chosen, seen = layout_on(face), regions(face)
     rest = face.points[chosen]
     start = time.perf_counter()
-    skin = bind_skin(face.points, face.sides, rest, face.sides[chosen])
+    skin = bind_skin(face.points, face.sides, rest, face.sides[chosen], face.line)
     bound = time.perf_counter() - start
     errors: dict[tuple[str, str], list[Floats]] = {}
     moved: list[Floats] = []

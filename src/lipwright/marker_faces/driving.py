@@ -96,7 +96,7 @@ def drive(layout: MarkerLayout, face: FaceMesh, binding: Binding) -> MarkerFace:
     moves = binding.alignment.moved(steps)
     rows = np.flatnonzero(face.skin)
     sides = marker_sides(face, binding)
-    skin = bind_skin(face.points[rows], face.sides[rows], binding.points, sides)
+    skin = bind_skin(face.points[rows], face.sides[rows], binding.points, sides, face.line)
     inner = _inner(face, binding.points, sides, moves)
     whole = np.where(face.still[:, None], 0.0, inner)
     whole[:, rows] = skin.targets(moves)

@@ -6,6 +6,11 @@ not move together: each vertex has a *side*, 1 on the upper lip, 0 on the lower,
 from one to the other beside the corners of the mouth; what lies wholly on one side follows
 no marker that lies wholly on the other. And what is far from all markers does not move.
 
+Markers lie on the borders of the lips, and the kernel would draw what lies inside of them
+towards the mean of the face: a mouth would open by a fifth too little. The edge of a lip is a
+free one, nothing beyond pulls at it; so the markers beside it are mirrored at it, and their
+images move as they do.
+
 The kernel is Hardy's multiquadric (1971), the distance rounded off at its foot, with a
 constant: the distance is the biharmonic kernel of three dimensions, which overshoots beyond
 the markers of the lips less than its cube, but leaves a cusp at each of them, which one
@@ -29,10 +34,15 @@ _BAND = 0.1
 _PULL = 1e-7
 _EXACT, _MOST_STEPS = 1e-6, 4000
 _RIDGE = 1e-7
-_ROUND, _CLOSEST = 0.5, 0.1
-"""The kernel's foot is half of the spacing of the closest tenth of the markers."""
+_ROUND, _CLOSEST = 0.25, 0.1
+"""The kernel's foot is a quarter of the spacing of the closest tenth of the markers."""
+_BESIDE = 0.25
+"""Of the mouth's width: markers so near to where the lips meet are mirrored."""
 _FULL, _GONE = 1.5, 6.0
 """Skin moves wholly up to so many spacings of the markers from the next one, and not beyond."""
+
+
+_NO_IMAGES: tuple[Floats, Indices] = (np.zeros((0, 3)), np.zeros(0, np.intp))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -61,6 +71,7 @@ def bind_skin(
     sides: Floats,
     markers: Floats,
     marker_sides: Floats,
+    line: Floats | None = None,
 ) -> Skin:
     """Bind a mesh to markers.
 
@@ -71,34 +82,65 @@ def bind_skin(
     sides : (V,) float64
         Of each vertex, from :func:`mouth_sides`.
     markers : (M, 3) float64
-        On the mesh, no two at one place.
+        On the mesh.
     marker_sides : (M,) float64
+    line : (P, 3) float64, optional
+        Where the lips meet, from corner to corner.
 
     Returns
     -------
     Skin
     """
     weights = np.zeros((len(points), len(markers)))
+    images, owners = mirrored(markers, marker_sides, line) if line is not None else _NO_IMAGES
     for share, away in ((sides, marker_sides <= 0.0), (1.0 - sides, marker_sides >= 1.0)):
         rows, heard = np.flatnonzero(share > 0), np.flatnonzero(~away)
-        if len(rows) and len(heard):
-            part = interpolation(points[rows], markers[heard])
-            weights[np.ix_(rows, heard)] += share[rows, None] * part
+        if not len(rows) or not len(heard):
+            continue
+        also = ~away[owners]
+        part = interpolation(points[rows], markers[heard], images[also])
+        own, of_images = part[:, : len(heard)], part[:, len(heard) :]
+        for column, owner in zip(of_images.T, np.searchsorted(heard, owners[also]), strict=True):
+            own[:, owner] += column
+        weights[np.ix_(rows, heard)] += share[rows, None] * own
     return Skin((weights * fading(points, markers)[:, None]).astype(np.float32))
 
 
-def interpolation(points: Floats, markers: Floats) -> Floats:
-    """Return weights (V, M) by which points take the values at markers, meeting them."""
-    count = len(markers)
-    apart = _distances(markers, markers)
-    foot = _ROUND * float(np.quantile(_nearest(apart), _CLOSEST)) if count > 1 else 1.0
-    kernel = np.asarray(-np.sqrt(apart**2 + foot**2), np.float64)
-    size = float(np.abs(kernel).max()) or 1.0
+def mirrored(markers: Floats, sides: Floats, line: Floats) -> tuple[Floats, Indices]:
+    """Return the images of the markers beside the line of the lips, and whose each is."""
+    far = _distances(markers, line)
+    nearest = far.argmin(axis=1)
+    width = float(np.linalg.norm(line[-1] - line[0]))
+    beside = (far.min(axis=1) < _BESIDE * width) & (nearest > 0) & (nearest < len(line) - 1)
+    owners = np.flatnonzero(beside & ((sides <= 0.0) | (sides >= 1.0)))
+    return 2.0 * line[nearest[owners]] - markers[owners], owners
+
+
+def interpolation(points: Floats, markers: Floats, images: Floats | None = None) -> Floats:
+    """Return weights by which points take the values at markers, meeting them.
+
+    Parameters
+    ----------
+    points : (V, 3) float64
+    markers : (M, 3) float64
+    images : (I, 3) float64, optional
+        Further places with values.
+
+    Returns
+    -------
+    (V, M + I) float64
+    """
+    foot = _ROUND * float(np.quantile(_nearest(_distances(markers, markers)), _CLOSEST))
+    foot = foot if np.isfinite(foot) and foot > 0 else _ROUND
+    sources = markers if images is None else np.concatenate([markers, images])
+    count = len(sources)
+    kernel = np.asarray(-np.sqrt(_distances(sources, sources) ** 2 + foot**2), np.float64)
+    size = float(np.abs(kernel).max())
     system: Floats = np.ones((count + 1, count + 1))
     system[:count, :count] = kernel / size + _RIDGE * np.eye(count)
     system[count, count] = 0.0
     columns: Floats = np.ones((len(points), count + 1))
-    columns[:, :count] = -np.sqrt(_distances(points, markers) ** 2 + foot**2) / size
+    columns[:, :count] = -np.sqrt(_distances(points, sources) ** 2 + foot**2) / size
     # The system is symmetric: what it solves for the points are the weights themselves.
     found = np.linalg.solve(system, columns.T)[:count].T
     return np.asarray(found, np.float64)
