@@ -85,6 +85,18 @@ def test_skin_between_markers_that_move_alike_moves_like_them(skin: Skin) -> Non
     assert moved[near] == pytest.approx(np.tile((0.001, 0.002, -0.003), (near.sum(), 1)), abs=1e-6)
 
 
+def test_the_edge_of_a_lip_moves_as_the_markers_beside_it() -> None:
+    line = POINTS[ON_LINE & UPPER & (np.abs(POINTS[:, 0]) < HALF)]
+    skin = bind_skin(POINTS, SIDES, POINTS[MARKERS], SIDES[MARKERS], line)
+    lower = np.flatnonzero(SIDES[MARKERS] == 0)
+    moves = np.zeros((len(MARKERS), 3))
+    moves[lower] = (0.0, -0.01, 0.0)
+    assert skin.moved(moves)[MARKERS] == pytest.approx(moves, abs=1e-5)
+    edge = ON_LINE & ~UPPER & (np.abs(POINTS[:, 0]) < 0.5 * HALF)
+    assert skin.moved(moves)[edge, 1] == pytest.approx(-0.01, abs=0.001)
+    assert (skin.weights[np.ix_(SIDES == 1, lower)] == 0).all()
+
+
 def test_what_is_far_does_not_move() -> None:
     away = np.concatenate([POINTS, POINTS - (0.0, 0.0, 0.4)])
     sides = np.concatenate([SIDES, np.full(len(POINTS), 0.5)])

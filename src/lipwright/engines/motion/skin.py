@@ -11,10 +11,9 @@ towards the mean of the face: a mouth would open by a fifth too little. The edge
 free one, nothing beyond pulls at it; so the markers beside it are mirrored at it, and their
 images move as they do.
 
-The kernel is Hardy's multiquadric (1971), the distance rounded off at its foot, with a
-constant: the distance is the biharmonic kernel of three dimensions, which overshoots beyond
-the markers of the lips less than its cube, but leaves a cusp at each of them, which one
-sees. It meets the markers and levels off behind the last of them. All is linear in the
+The kernel is the distance to the power of 1.5, with a constant: the distance itself (the
+biharmonic kernel of three dimensions) leaves a cusp at each marker, which one sees; its cube
+overshoots. It meets the markers and levels off behind the last of them. All is linear in the
 markers and computed once, into one matrix. Lengths are the mesh's own; nothing is known
 here of characters.
 """
@@ -34,10 +33,8 @@ _BAND = 0.1
 _PULL = 1e-7
 _EXACT, _MOST_STEPS = 1e-6, 4000
 _RIDGE = 1e-7
-_ROUND, _CLOSEST = 0.25, 0.1
-"""The kernel's foot is a quarter of the spacing of the closest tenth of the markers."""
-_BESIDE = 0.25
-"""Of the mouth's width: markers so near to where the lips meet are mirrored."""
+_AT, _BESIDE = 0.02, 0.25
+"""Of the mouth's width: markers so far from where the lips meet are mirrored."""
 _FULL, _GONE = 1.5, 6.0
 """Skin moves wholly up to so many spacings of the markers from the next one, and not beyond."""
 
@@ -108,12 +105,18 @@ def bind_skin(
 
 def mirrored(markers: Floats, sides: Floats, line: Floats) -> tuple[Floats, Indices]:
     """Return the images of the markers beside the line of the lips, and whose each is."""
-    far = _distances(markers, line)
+    start, along = line[:-1], np.diff(line, axis=0)
+    long = np.maximum((along**2).sum(axis=1), 1e-30)
+    share = ((markers[:, None] - start) * along).sum(axis=2) / long
+    feet = start + np.clip(share, 0.0, 1.0)[:, :, None] * along
+    far = np.linalg.norm(markers[:, None] - feet, axis=2)
     nearest = far.argmin(axis=1)
+    rows = np.arange(len(markers))
     width = float(np.linalg.norm(line[-1] - line[0]))
-    beside = (far.min(axis=1) < _BESIDE * width) & (nearest > 0) & (nearest < len(line) - 1)
-    owners = np.flatnonzero(beside & ((sides <= 0.0) | (sides >= 1.0)))
-    return 2.0 * line[nearest[owners]] - markers[owners], owners
+    inside = (nearest + share[rows, nearest] > 0) & (nearest + share[rows, nearest] < len(along))
+    near = far[rows, nearest] / width
+    owners = np.flatnonzero(inside & (near > _AT) & (near < _BESIDE) & (np.abs(sides - 0.5) >= 0.5))
+    return 2.0 * feet[owners, nearest[owners]] - markers[owners], owners
 
 
 def interpolation(points: Floats, markers: Floats, images: Floats | None = None) -> Floats:
@@ -130,17 +133,13 @@ def interpolation(points: Floats, markers: Floats, images: Floats | None = None)
     -------
     (V, M + I) float64
     """
-    foot = _ROUND * float(np.quantile(_nearest(_distances(markers, markers)), _CLOSEST))
-    foot = foot if np.isfinite(foot) and foot > 0 else _ROUND
     sources = markers if images is None else np.concatenate([markers, images])
-    count = len(sources)
-    kernel = np.asarray(-np.sqrt(_distances(sources, sources) ** 2 + foot**2), np.float64)
-    size = float(np.abs(kernel).max())
+    count, size = len(sources), float(np.ptp(sources, axis=0).max()) or 1.0
     system: Floats = np.ones((count + 1, count + 1))
-    system[:count, :count] = kernel / size + _RIDGE * np.eye(count)
+    system[:count, :count] = _RIDGE * np.eye(count) - (_distances(sources, sources) / size) ** 1.5
     system[count, count] = 0.0
     columns: Floats = np.ones((len(points), count + 1))
-    columns[:, :count] = -np.sqrt(_distances(points, sources) ** 2 + foot**2) / size
+    columns[:, :count] = -((_distances(points, sources) / size) ** 1.5)
     # The system is symmetric: what it solves for the points are the weights themselves.
     found = np.linalg.solve(system, columns.T)[:count].T
     return np.asarray(found, np.float64)
@@ -153,16 +152,11 @@ def _distances(one: Floats, other: Floats) -> Floats:
     return np.asarray(np.sqrt(squares))
 
 
-def _nearest(apart: Floats) -> Floats:
-    """Return the distance of each marker (M,) to the next, given all distances (M, M)."""
-    return np.asarray((apart + np.diag(np.full(len(apart), np.inf))).min(axis=1))
-
-
 def fading(points: Floats, markers: Floats) -> Floats:
     """Return by how much points (V,) move at all, 1 about the markers and 0 far from them."""
     near = _distances(points, markers).min(axis=1)
-    apart = _nearest(_distances(markers, markers))
-    spacing = float(np.median(apart)) if len(markers) > 1 else 1.0
+    apart = _distances(markers, markers) + np.diag(np.full(len(markers), np.inf))
+    spacing = float(np.median(apart.min(axis=1))) if len(markers) > 1 else 1.0
     return 1.0 - smooth((near / (spacing or 1.0) - _FULL) / (_GONE - _FULL))
 
 
