@@ -16,15 +16,16 @@ from lipwright.character.surfaces import read_surfaces
 from lipwright.errors import CharacterError
 from lipwright.export import glb
 from lipwright.gltf import Gltf, GltfWriter, morph_meshes, parse_glb, read_accessor
-from lipwright.marker_faces import bind, drive, read_face_mesh
+from lipwright.marker_faces import MarkerFile, bind, drive, marker_face, read_face_mesh
 from lipwright.marker_faces.driving import MarkerFace
 from lipwright.performance import Performance, RiggedModel
 from lipwright.phones import PhoneTrack
 from lipwright.speech import Speech
 from lipwright.timeline import Tier
+from tests.character.sheets import jawed
 from tests.export.validator import issues
 from tests.marker_faces.heads import POSES, chosen, driven, head, layout
-from tests.marker_layouts import recorded
+from tests.marker_layouts import layout_of, recorded
 
 Floats = NDArray[np.float64]
 FRONT = np.array([0.0, 0.0, 1.0])
@@ -145,3 +146,41 @@ def test_units_places_and_animations_of_a_model_are_kept(tmp_path: Path) -> None
     assert (kept[:, :old] == 1).all()
     assert kept.shape[1] == old + len(made.targets)
     assert not kept[:, old:].any()
+
+
+@pytest.mark.parametrize("facing", [1.0, -1.0])
+def test_skin_on_joints_goes_where_the_markers_go(facing: float, tmp_path: Path) -> None:
+    joint = {"rotation": [0.0, 0.6, 0.0, 0.8], "scale": [2.0, 2.0, 2.0]}
+    path = tmp_path / "jawed.glb"
+    path.write_bytes(jawed({}, joint, facing=facing).to_glb())
+    face = read_face_mesh(load_character(path))
+    upper = face.sides > 0.5
+    far = np.abs(face.points[:, :2] / (0.02, 0.015))
+    rows = [
+        int(np.argmin(np.linalg.norm(far - (x, y), axis=1) + 9 * (upper != up)))
+        for up in (True, False)
+        for x, y in ((0.0, 0.4), (0.5, 0.4), (1.0, 0.4), (0.0, 1.4), (1.0, 1.4))
+    ]
+    places = face.points[rows]
+    moves = np.zeros((2, len(rows), 3))
+    moves[1, ~upper[rows], 1] = -0.01
+    own = layout_of(places, moves)
+    found = {
+        label: tuple(point @ face.surfaces.axes)
+        for label, point in zip(own.labels, places, strict=True)
+    }
+    file = MarkerFile("jawed", len(face.points), found)
+    made = drive(own, face, bind(own, face, file))
+    values = dict(zip(made.targets, made.weights_of(moves[1:])[0].tolist(), strict=True))
+    shown = read_surfaces(made.model, {}, face.surfaces.axes[2])
+    went = shown.positions(values) - shown.positions({})
+    assert went[rows] == pytest.approx(moves[1], abs=1e-5)
+
+
+def test_one_call_makes_it_all(tmp_path: Path) -> None:
+    path = tmp_path / "markers.json"
+    bind(layout(), head()).to_file(head()).write(path)
+    made = marker_face(load_character("head"), layout(), path)
+    assert made.targets == driven().targets
+    assert made.steps == pytest.approx(driven().steps)
+    assert made.note.startswith("109 markers lie 0.0 mm from the skin")

@@ -7,7 +7,7 @@ Where markers lie is a file that an artist may edit (:mod:`.marker_file`).
 """
 
 from lipwright.marker_faces.binding import Binding, bind
-from lipwright.marker_faces.driving import MarkerFace, drive
+from lipwright.marker_faces.driving import MarkerFace, drive, marker_face
 from lipwright.marker_faces.face_mesh import FaceMesh, read_face_mesh
 from lipwright.marker_faces.layout import MarkerLayout
 from lipwright.marker_faces.marker_file import MarkerFile, read_marker_file
@@ -20,6 +20,7 @@ __all__ = [
     "MarkerLayout",
     "bind",
     "drive",
+    "marker_face",
     "read_face_mesh",
     "read_marker_file",
 ]

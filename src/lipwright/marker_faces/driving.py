@@ -9,16 +9,22 @@ and upper teeth stay. A target is what one standard deviation of its component d
 from __future__ import annotations
 
 from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from lipwright.engines.motion.skin import Skin, bind_skin, smooth
 from lipwright.gltf import Gltf
-from lipwright.marker_faces.binding import Binding
-from lipwright.marker_faces.face_mesh import FaceMesh
+from lipwright.marker_faces.binding import Binding, bind
+from lipwright.marker_faces.face_mesh import FaceMesh, read_face_mesh
 from lipwright.marker_faces.layout import MarkerLayout
+from lipwright.marker_faces.marker_file import read_marker_file
 from lipwright.marker_faces.writing import with_targets
+
+if TYPE_CHECKING:
+    from lipwright.character import Character
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
@@ -51,6 +57,8 @@ class MarkerFace:
         What of a component's coefficient is 1 of its target.
     skin : Skin
         How the skin follows the markers.
+    note : str
+        How well the markers lie on the face.
     """
 
     name: str
@@ -59,6 +67,7 @@ class MarkerFace:
     steps: Floats
     deviations: Floats
     skin: Skin
+    note: str = ""
 
     def weights(self, coefficients: NDArray[np.floating]) -> NDArray[np.float32]:
         """Return the targets' weights (T, 1 + K) for coefficients (T, K) of the components."""
@@ -74,6 +83,30 @@ class MarkerFace:
         steps = self.steps.reshape(len(self.steps), -1)
         parts = np.linalg.lstsq(steps[1:].T, (flat - steps[0]).T, rcond=None)[0].T
         return np.concatenate([np.ones((len(flat), 1)), parts], axis=1).astype(np.float32)
+
+
+def marker_face(
+    character: Character, layout: MarkerLayout, file: str | Path | None = None
+) -> MarkerFace:
+    """Return a character as a layout of markers drives it.
+
+    Parameters
+    ----------
+    character : Character
+    layout : MarkerLayout
+    file : path, optional
+        A marker file, which goes before what is found.
+
+    Raises
+    ------
+    CharacterError
+        If no mouth can be found on the character, or the markers do not fit its face.
+    InputError
+        If the file cannot be used.
+    """
+    face = read_face_mesh(character)
+    given = read_marker_file(file) if file is not None else None
+    return drive(layout, face, bind(layout, face, given))
 
 
 def drive(layout: MarkerLayout, face: FaceMesh, binding: Binding) -> MarkerFace:
@@ -105,7 +138,8 @@ def drive(layout: MarkerLayout, face: FaceMesh, binding: Binding) -> MarkerFace:
     beside = share[:, None] * whole[:, nearest] + (1 - share[:, None]) * inner[:, loose]
     whole[:, loose] = beside
     names = (MEAN, *(_STEP.format(number + 1) for number in range(len(layout.basis))))
-    return MarkerFace(face.name, with_targets(face, names, whole), names, steps, deviations, skin)
+    model = with_targets(face, names, whole)
+    return MarkerFace(face.name, model, names, steps, deviations, skin, binding.note())
 
 
 def marker_sides(face: FaceMesh, binding: Binding) -> Floats:

@@ -28,7 +28,14 @@ from pathlib import Path
 import msgspec
 
 from lipwright.errors import FileFormatError
-from lipwright.files import convert, format_number, format_row, quote, read_document
+from lipwright.files import (
+    convert,
+    format_number,
+    format_row,
+    quote,
+    read_document,
+    write_atomically,
+)
 
 FORMAT, VERSION = "lipwright/markers", 1
 Point = tuple[float, float, float]
@@ -72,6 +79,16 @@ class MarkerFile:
         if self.markers:
             parts.append(_block("markers", self.markers))
         return ("{\n  " + ",\n  ".join(parts) + "\n}\n").encode()
+
+    def write(self, path: str | Path) -> None:
+        """Write the file, whole or not at all.
+
+        Raises
+        ------
+        OutputError
+            If it cannot be written.
+        """
+        write_atomically(path, self.to_bytes())
 
 
 def _block(key: str, points: Mapping[str, Point]) -> str:
