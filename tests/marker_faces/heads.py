@@ -27,6 +27,7 @@ POSES: list[dict[str, float]] = [
     {"jawOpen": 0.2, "mouthPucker": 0.8},
     {"mouthSmileLeft": 0.8, "mouthSmileRight": 0.7},
     {"jawLeft": 0.5, "jawOpen": 0.1},
+    {"browInnerUp": 0.8},
 ]
 
 

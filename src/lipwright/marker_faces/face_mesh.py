@@ -31,6 +31,7 @@ Flags = NDArray[np.bool_]
 
 _INSIDE = re.compile(r"teeth|tooth|tongue|gum|denture", re.I)
 _STILL = re.compile(r"hair(?!line)|shirt|cloth|hat$|glass|eye(?!.?(brow|lash|lid|socket))", re.I)
+_ON_SKIN = re.compile(r"brow|lash|lid|beard|mous?tache|stubble", re.I)
 _OUTWARD = 0.1
 
 
@@ -117,7 +118,8 @@ def read_face_mesh(character: Character) -> FaceMesh:
     lips = np.unique(face.part_of[np.concatenate([mouth.upper, mouth.lower])])
     of_skin = np.isin(np.arange(len(named)), lips)
     inside = np.array([bool(_INSIDE.search(name)) for name in named]) & ~of_skin
-    still = np.array([bool(_STILL.search(name)) for name in named]) & ~of_skin & ~inside
+    apart = [bool(_STILL.search(name)) and not _ON_SKIN.search(name) for name in named]
+    still = np.array(apart) & ~of_skin & ~inside
     skin = of_skin[face.part_of]
     triangles = face.triangles
     triangles = triangles[skin[triangles].all(axis=1)]

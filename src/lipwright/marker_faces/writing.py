@@ -29,7 +29,7 @@ from lipwright.marker_faces.face_mesh import FaceMesh
 
 Floats = NDArray[np.float64]
 
-_STILL = 1e-5
+_STILL = 5e-5
 """Of the mouth's width: a vertex that moves by less is still."""
 
 

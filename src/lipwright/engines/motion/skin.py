@@ -33,6 +33,7 @@ _BAND = 0.1
 _PULL = 1e-7
 _EXACT, _MOST_STEPS = 1e-6, 4000
 _RIDGE = 1e-7
+_SIDED = 1e-4
 _AT, _BESIDE = 0.02, 0.25
 """Of the mouth's width: markers so far from where the lips meet are mirrored."""
 _FULL, _GONE = 1.5, 6.0
@@ -88,6 +89,7 @@ def bind_skin(
     -------
     Skin
     """
+    sides, marker_sides = _snapped(sides), _snapped(marker_sides)
     weights = np.zeros((len(points), len(markers)))
     images, owners = mirrored(markers, marker_sides, line) if line is not None else _NO_IMAGES
     for share, away in ((sides, marker_sides <= 0.0), (1.0 - sides, marker_sides >= 1.0)):
@@ -101,6 +103,12 @@ def bind_skin(
             own[:, owner] += column
         weights[np.ix_(rows, heard)] += share[rows, None] * own
     return Skin((weights * fading(points, markers)[:, None]).astype(np.float32))
+
+
+def _snapped(sides: Floats) -> Floats:
+    """Return sides that rounding took off 0 and 1 as what they are."""
+    sides = np.where(sides < _SIDED, 0.0, sides)
+    return np.where(sides > 1.0 - _SIDED, 1.0, sides)
 
 
 def mirrored(markers: Floats, sides: Floats, line: Floats) -> tuple[Floats, Indices]:
