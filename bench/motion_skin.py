@@ -120,12 +120,12 @@ def binding(face: FaceMesh, chosen: list[int], moves: Floats) -> dict[str, objec
     off = np.linalg.norm(bound.points - face.points[chosen], axis=1)
     other = bind(layout, read_face_mesh(load_character("head")))
     start = time.perf_counter()
-    drive(layout, face, bound)
+    made = drive(layout, face, bound)
     return {
         "placed": figures([off]),
         "binding_s": round(took, 2),
         "beside_another_face_mm": round(1e3 * other.residual, 2),
-        "targets": 1 + len(basis),
+        "targets": len(made.targets),
         "targets_s": round(time.perf_counter() - start, 2),
     }
 

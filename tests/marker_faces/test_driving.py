@@ -24,7 +24,7 @@ from lipwright.speech import Speech
 from lipwright.timeline import Tier
 from tests.character.sheets import jawed
 from tests.export.validator import issues
-from tests.marker_faces.heads import POSES, chosen, driven, head, layout
+from tests.marker_faces.heads import POSES, bound, chosen, driven, head, layout
 from tests.marker_layouts import layout_of, recorded
 
 Floats = NDArray[np.float64]
@@ -45,13 +45,15 @@ def moved(face: MarkerFace, values: dict[str, float], part: str) -> Floats:
 
 
 def test_targets_do_what_the_markers_do() -> None:
-    for pose, values in enumerate(POSES):
-        true = head().surfaces.positions(values) - head().points
+    for pose, shapes in enumerate(POSES):
+        true = head().surfaces.positions(shapes) - head().points
         skin = moved(driven(), weights(pose), "skin")
         rows = np.flatnonzero(head().skin)
         marks = np.searchsorted(rows, list(chosen()))
         assert skin[marks] == pytest.approx(true[rows[marks]], abs=2e-4)
-        steps = np.tensordot(list(weights(pose).values()), driven().steps, 1)
+        *values, parted = weights(pose).values()
+        steps = np.tensordot(values, driven().steps, 1)
+        assert parted == 0
         assert skin == pytest.approx(driven().skin.moved(steps), abs=2e-5)
         seen = head().outward[rows] & (head().points[rows, 2] > 0.02)
         off = np.linalg.norm(skin - true[rows], axis=1)[seen]
@@ -101,6 +103,26 @@ def test_lips_do_not_cross_when_they_open() -> None:
     gaps = whole[mouth.upper, 1] - whole[mouth.lower, 1]
     assert (gaps > rest[mouth.upper, 1] - rest[mouth.lower, 1] - 1e-4).all()
     assert gaps.max() > 0.01
+
+
+def test_lips_that_press_on_one_another_do_not_cross() -> None:
+    moves = recorded(head(), list(chosen()), POSES)
+    press = np.zeros_like(moves[:1])
+    along = 1.0 - np.linspace(-1.0, 1.0, 9) ** 2
+    press[0, 2:11, 1], press[0, 11:20, 1] = -0.002 * along, 0.002 * along
+    whole = layout_of(head().points[list(chosen())], np.concatenate([moves, press]))
+    made = drive(whole, head(), bound())
+    values = dict(zip(made.targets, made.weights_of(press)[0].tolist(), strict=True))
+    crossed = closest(made, {**values, "markers lips apart": 0.0})
+    assert crossed < -0.003
+    assert 0.55 * crossed < closest(made, values) < 0.0
+
+
+def closest(made: MarkerFace, values: dict[str, float]) -> float:
+    """The least distance from the lower lip to the upper, about the middle."""
+    mouth = head().mouth
+    shown = read_surfaces(made.model, {}, FRONT).positions(values)
+    return float((shown[mouth.upper, 1] - shown[mouth.lower, 1])[5:-5].min())
 
 
 def test_a_model_keeps_what_it_had_and_is_valid(tmp_path: Path) -> None:

@@ -1,4 +1,4 @@
-"""From markers on a face to morph targets: one for the mean, one for each component.
+"""From markers on a face to morph targets: the mean, the components, and lips parted.
 
 Skin follows the markers by radial basis functions (:mod:`lipwright.engines.motion.skin`).
 Lower teeth and tongue follow the chin as the model's own jaw does, and go aside with it. What
@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from lipwright.engines.motion.skin import Skin, bind_skin, smooth
 from lipwright.gltf import Gltf
 from lipwright.marker_faces.binding import Binding, bind
+from lipwright.marker_faces.contact import APART, Contact, contact, parting
 from lipwright.marker_faces.face_mesh import FaceMesh, read_face_mesh
 from lipwright.marker_faces.layout import MarkerLayout
 from lipwright.marker_faces.marker_file import read_marker_file
@@ -50,13 +51,16 @@ class MarkerFace:
     model : Gltf
         With the targets added to what it had.
     targets : tuple of str
-        Their names, the mean first: what an animation of it has as controls.
+        Their names: what an animation of it has as controls. First the mean, then the
+        components, last what keeps the lips from crossing.
     steps : (1 + K, M, 3) float64, metres
         What each does to the markers, in the layout's axes.
     deviations : (K,) float64
         What of a component's coefficient is 1 of its target.
     skin : Skin
         How the skin follows the markers.
+    contact : Contact
+        When the lips cross.
     note : str
         How well the markers lie on the face.
     """
@@ -67,22 +71,28 @@ class MarkerFace:
     steps: Floats
     deviations: Floats
     skin: Skin
+    contact: Contact
     note: str = ""
 
     def weights(self, coefficients: NDArray[np.floating]) -> NDArray[np.float32]:
-        """Return the targets' weights (T, 1 + K) for coefficients (T, K) of the components."""
+        """Return the targets' weights (T, 2 + K) for coefficients (T, K) of the components."""
         mean = np.ones((len(coefficients), 1))
-        return np.concatenate([mean, coefficients / self.deviations], axis=1).astype(np.float32)
+        return self._whole(np.concatenate([mean, coefficients / self.deviations], axis=1))
 
     def weights_of(self, displacements: NDArray[np.floating]) -> NDArray[np.float32]:
-        """Return the weights that come nearest to displacements (T, M, 3), or (T, 3 M), metres.
+        """Return the weights (T, 2 + K) for displacements (T, M, 3) or (T, 3 M) in metres.
 
-        Exact where these are made of the mean and the components.
+        Those that come nearest; exact where the displacements are made of the mean and the
+        components.
         """
         flat = np.asarray(displacements, np.float64).reshape(len(displacements), -1)
         steps = self.steps.reshape(len(self.steps), -1)
         parts = np.linalg.lstsq(steps[1:].T, (flat - steps[0]).T, rcond=None)[0].T
-        return np.concatenate([np.ones((len(flat), 1)), parts], axis=1).astype(np.float32)
+        return self._whole(np.concatenate([np.ones((len(flat), 1)), parts], axis=1))
+
+    def _whole(self, weights: Floats) -> NDArray[np.float32]:
+        parted = self.contact.weights(weights)
+        return np.column_stack([weights, parted]).astype(np.float32)
 
 
 def marker_face(
@@ -130,16 +140,27 @@ def drive(layout: MarkerLayout, face: FaceMesh, binding: Binding) -> MarkerFace:
     rows = np.flatnonzero(face.skin)
     sides = marker_sides(face, binding)
     skin = bind_skin(face.points[rows], face.sides[rows], binding.points, sides, face.line)
+    parted = parting(face)
     inner = _inner(face, binding.points, sides, moves)
+    inner = np.concatenate([inner, np.zeros_like(parted)[None]])
     whole = np.where(face.still[:, None], 0.0, inner)
-    whole[:, rows] = skin.targets(moves)
+    whole[:-1, rows], whole[-1, rows] = skin.targets(moves), parted[rows]
     loose = np.flatnonzero(~(face.skin | face.still | face.inside))
     nearest, share = _close(face, loose, rows)
     beside = share[:, None] * whole[:, nearest] + (1 - share[:, None]) * inner[:, loose]
     whole[:, loose] = beside
-    names = (MEAN, *(_STEP.format(number + 1) for number in range(len(layout.basis))))
-    model = with_targets(face, names, whole)
-    return MarkerFace(face.name, model, names, steps, deviations, skin, binding.note())
+    components = (_STEP.format(number + 1) for number in range(len(layout.basis)))
+    names = (MEAN, *components, APART)
+    return MarkerFace(
+        face.name,
+        with_targets(face, names, whole),
+        names,
+        steps,
+        deviations,
+        skin,
+        contact(face, whole[:-1], parted),
+        binding.note(),
+    )
 
 
 def marker_sides(face: FaceMesh, binding: Binding) -> Floats:
