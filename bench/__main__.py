@@ -31,6 +31,7 @@ MEASURES = (
     "motion_search",
     "motion_joining",
     "motion_capture",
+    "motion_skin",
 )
 
 

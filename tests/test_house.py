@@ -19,7 +19,7 @@ LAYERS = [
     ("animation", "speech"),
     ("performance",),
     ("schedule", "engines", "character", "export", "evaluate"),
-    ("casting", "told_in_poses"),
+    ("casting", "marker_faces", "told_in_poses"),
     ("acting",),
     ("pipeline", "corpus", "marker_takes", "motion_takes", "recorded"),
     ("cli",),

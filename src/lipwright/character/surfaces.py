@@ -45,6 +45,8 @@ class Surface:
         The accessor of each morph target's displacements.
     rows : (V,) int, optional
         Which of the primitive's vertices these are; None means all.
+    place : tuple of int
+        The mesh, and which of its primitives.
     """
 
     name: str
@@ -56,6 +58,7 @@ class Surface:
     triangles: Indices
     targets: dict[str, int]
     rows: Indices | None = None
+    place: tuple[int, int] = (0, 0)
     _kept: dict[str, Floats] = field(default_factory=dict)
 
     def moves(self, target: str) -> Floats:
@@ -190,11 +193,12 @@ def _read(model: Gltf, turns: Mapping[str, JointTurn], front: Floats) -> Surface
     for index, node in enumerate(model.items("nodes")):
         if "mesh" not in node:
             continue
-        for primitive in model.items("meshes")[node["mesh"]]["primitives"]:
+        for order, primitive in enumerate(model.items("meshes")[node["mesh"]]["primitives"]):
             if primitive.get("mode", 4) != 4 or "POSITION" not in primitive["attributes"]:
                 continue
             frames = _frames(model, node, primitive, world, carried, index)
-            parts.append(_surface(model, node, primitive, frames, targets.get(node["mesh"], ())))
+            surface = _surface(model, node, primitive, frames, targets.get(node["mesh"], ()))
+            parts.append(replace(surface, place=(node["mesh"], order)))
     up = np.array([0.0, 1.0, 0.0])
     axes = np.stack([np.cross(up, front), up, front])
     pivot, axis = np.zeros(3), np.array([1.0, 0.0, 0.0])
