@@ -272,3 +272,18 @@ def test_bad_input_is_one_line(
     assert told in error
     assert error.count("\n") == 1
     assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    ("voice", "text", "stand_in"),
+    [
+        ("fr", "Tu veux du feu, Jeanne ?", "y"),
+        ("de", "Über rote Rosen.", "ʁ"),
+        ("cmn", "你好吗", ""),
+    ],
+)
+def test_lines_in_other_languages_are_spoken(voice: str, text: str, stand_in: str) -> None:
+    speech = pipeline.say(text, voice=voice)
+    made = pipeline.animate(speech, engine="motion").animation
+    assert made.control("open").max() > 0.1
+    assert any(stand_in in wanted for wanted in made.report["nearest_phones"])

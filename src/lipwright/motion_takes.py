@@ -29,7 +29,8 @@ from lipwright.marker_takes import (
     rest_of_takes,
     with_same_markers,
 )
-from lipwright.phones import PhoneTrack, load_reduction
+from lipwright.phones import PhoneTrack
+from lipwright.phones.through import through_classes
 from lipwright.timeline import Interval, Tier
 
 if TYPE_CHECKING:
@@ -339,5 +340,5 @@ def _full_labels(track: PhoneTrack) -> PhoneTrack:
     """Return phones in ARPAbet, the notation of all databases."""
     if track.phone_set == "arpabet":
         return track
-    rows, _ = load_reduction(track.phone_set, "arpabet").rows(track)
+    rows, _ = through_classes(track.phone_set, "arpabet").rows(track)
     return PhoneTrack(Tier(tuple(Interval(*row) for row in rows)), "arpabet")

@@ -35,7 +35,8 @@ from lipwright.engines.motion.search import (
 from lipwright.engines.motion.splicing import PairTable
 from lipwright.errors import InputError
 from lipwright.phones import SILENCE, load_reduction
-from lipwright.phones.reduction import Row
+from lipwright.phones.reduction import Reduction, Row
+from lipwright.phones.through import through_classes
 from lipwright.speech import Speech
 
 FASTEST = 10_000.0
@@ -82,6 +83,7 @@ class MotionEngine:
         plain = isinstance(self._graph, UnitGraph)
         self._pairs = self._graph.pairs if plain else PairTable(database)
         self._reduction = load_reduction(database.phone_set)
+        self._spellings: dict[str, Reduction] = {}
         names = [self._class_of(label) for label in database.labels]
         self._classes = np.array([names.index(name) for name in names], np.int64)
 
@@ -112,7 +114,7 @@ class MotionEngine:
         """
         if not 1 <= rate <= FASTEST:
             raise InputError(f"{rate:g} frames per second", expected=f"1 to {FASTEST:g}")
-        rows = self.rows(speech)
+        rows, nearest = self.rows(speech)
         if not rows:
             raise InputError("no phones", expected="a line in which something is said")
         labels = [row[0] for row in rows]
@@ -145,22 +147,26 @@ class MotionEngine:
             speech.phones,
             speech.words,
             "motion",
-            {**report, **self._told(joined)},
+            {
+                **report,
+                "nearest_phones": {**nearest, **report["nearest_phones"]},
+                **self._told(joined),
+            },
         )
 
-    def rows(self, speech: Speech) -> list[Row]:
+    def rows(self, speech: Speech) -> tuple[list[Row], dict[str, str]]:
         """Return the phones of a line in the database's notation, without gaps.
+
+        Also what stands in for sounds that the notation lacks: a sound of their class.
 
         Raises
         ------
         LabelError
             If phones are unknown.
         """
-        track = speech.phones
-        reduction = load_reduction(track.phone_set, self.database.phone_set)
-        found, _ = reduction.rows(track)
+        found, report = self._spelling(speech.phones.phone_set).rows(speech.phones)
         if not found:
-            return []
+            return [], {}
         end = max(speech.duration, found[-1][2])
         before = min(0.0, found[0][1])
         rows: list[Row] = []
@@ -170,7 +176,17 @@ class MotionEngine:
             if stop - start > _SHORTEST_GAP:
                 rows.append((label, max(start, before), stop))
             before = max(before, stop)
-        return rows
+        return rows, report.stand_ins
+
+    def _spelling(self, phone_set: str) -> Reduction:
+        """Return what phones of a notation are in the database's; kept for the next line."""
+        if phone_set not in self._spellings:
+            counts = np.diff(self.database.label_first)
+            frequent = [self.database.labels[one] for one in np.argsort(-counts, kind="stable")]
+            self._spellings[phone_set] = through_classes(
+                phone_set, self.database.phone_set, frequent
+            )
+        return self._spellings[phone_set]
 
     def _heard(self, speech: Speech) -> Features | None:
         if speech.sound is None or not self.database.take_has_sound.any():
