@@ -146,6 +146,8 @@ class Performance:
         Whether the character is one of pictures: it has no model.
     sound_file : str
         The name of the sound's file, for formats that name it.
+    curves : function, optional
+        Returns what a page draws for the animation, where that has hundreds of channels.
     """
 
     animation: Animation
@@ -154,3 +156,4 @@ class Performance:
     cues: Callable[[], Cues] = _no_cues
     flat: bool = False
     sound_file: str = ""
+    curves: Callable[[], Animation] | None = None

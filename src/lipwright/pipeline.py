@@ -14,7 +14,7 @@ from functools import cache, lru_cache, partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from lipwright.acting import act
+from lipwright.acting import Acted, Acting, act
 from lipwright.casting import character_file, check_engine, engine_for, motion_engine
 from lipwright.errors import CharacterError, SoundError
 from lipwright.performance import Performance
@@ -177,6 +177,7 @@ def animate(
     database: str | Path | None = None,
     search: str = "several",
     controls: str | None = None,
+    markers: str | Path | None = None,
     pictures: str | Path | None = None,
     without: Sequence[str] = (),
     fps: float | None = None,
@@ -211,15 +212,15 @@ def animate(
     rate : float
         Frames per second.
     database : path, optional
-        A motion database, from :func:`lipwright.motion_takes.build_motion`; else the built-in
-        synthetic one.
+        A motion database (:mod:`lipwright.motion_takes`); else the built-in synthetic one.
     search : str
-        How the motion engine searches: ``"several"``, the mean of several paths, ``"optimal"``,
-        that of those with the fewest jumps, or one path: ``"cheapest"``, ``"greedy"``,
-        ``"pq"``.
+        How the motion engine searches: see
+        :class:`~lipwright.engines.motion.engine.MotionEngine`.
     controls : str, optional
         What the motion engine gives: ``"recorded"``, the takes' own channels, or ``"poses"``,
         those of the set; what the character can play, where it is not given.
+    markers : path, optional
+        Where a database's markers lie on the character.
     pictures : str or path, optional
         The mouth shapes that formats of held shapes use for a character with a model;
         ``"rhubarb"`` where none are given.
@@ -244,26 +245,25 @@ def animate(
     own = ""
     if engine == "motion":
         mover = motion_engine(database, search)
-        recorded = mover.animate(speech, rate)
-        animation = act(recorded, speech, mover.database, character, mapping, controls, bigram_set)
+        how = Acting(character, mapping, controls, bigram_set, markers)
+        acted = act(mover.animate(speech, rate), speech, mover.database, how)
     else:
         made = engine_for(bigram_set, preset, overrides, reduction, character, speech.language)
         own = made.of.name
-        animation = made.animate(speech, rate, read_edits(edits) if edits else ())
-    end = max(speech.duration, speech.phones.tier.end)
-    cues = cache(partial(hold_pictures, animation, shapes, end))
+        acted = Acted.as_it_is(made.animate(speech, rate, read_edits(edits) if edits else ()))
+    animation, end = acted.animation, max(speech.duration, speech.phones.tier.end)
+    cues = cache(lambda: hold_pictures(acted.told(), shapes, end))
     if is_pictures(character):
         shapes.check_controls(animation.controls)
         return Performance(animation, speech, shapes.no_model, cues, flat=True)
     actor = keep_character(character, mapping)
-    strange = ""
-    if not actor.fits or actor.bigram_set != own:
-        strange = _check(actor, animation.controls)
-    report = {**animation.report, "character": actor.report()}
-    named = replace(animation, report=report)
-    notes = (*speech.notes, *([strange] if strange else []))
+    notes = [*speech.notes, *filter(None, [acted.note])]
+    if acted.rig is None and (not actor.fits or actor.bigram_set != own):
+        notes += filter(None, [_check(actor, animation.controls)])
+    named = replace(animation, report={**animation.report, "character": actor.report()})
     told = replace(speech, notes=(*notes, *actor.notes(animation.controls, speech)))
-    return Performance(named, told, partial(actor.rig, named), cues)
+    rig, curves = acted.rig or partial(actor.rig, named), acted.told if acted.rig else None
+    return Performance(named, told, rig, cues, curves=curves)
 
 
 @lru_cache(maxsize=8)

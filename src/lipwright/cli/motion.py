@@ -166,3 +166,34 @@ def _text(database: Path, found: Info) -> str:
     if found.thin:
         lines.append(f"thin: {' '.join(found.thin)}")
     return "\n".join(lines)
+
+
+@motion.command()
+@click.argument("database", type=click.Path(path_type=Path), metavar="DB")
+@click.option(
+    "--character", default="head", show_default=True, metavar="WHO",
+    help="head, a character file, or a .glb, .vrm or .gltf file.",
+)  # fmt: skip
+@click.option(
+    "--pins", type=click.Path(path_type=Path), metavar="FILE",
+    help="A marker file with what is known already: its pins are kept.",
+)  # fmt: skip
+@click.option(
+    "-o", "--output", type=click.Path(path_type=Path), required=True, metavar="FILE.json",
+    help="The marker file to write, to be looked at and changed.",
+)  # fmt: skip
+def bind(database: Path, character: str, pins: Path | None, output: Path) -> None:
+    """Lay the markers of a database onto a character's face.
+
+    The file that is written says where each marker lies on the model. Move one under "pins"
+    and give the file to 'animate' with --markers.
+    """
+    from lipwright.acting import bind_markers
+    from lipwright.cli.speak import keep_inputs
+    from lipwright.files import check_target
+
+    check_target(output)
+    keep_inputs([str(output)], [character] if Path(character).is_file() else [])
+    binding = bind_markers(database, character, pins)
+    binding.file.write(output)
+    click.echo(f"{output}: {binding.note}")

@@ -53,6 +53,10 @@ animation = stack(
         "what the character can play, where it is not given.",
     ),
     click.option(
+        "--markers", type=click.Path(path_type=Path), metavar="FILE",
+        help="Where a database's markers lie on the character, see 'motion bind'.",
+    ),
+    click.option(
         "--set", "bigram_set", metavar="SET",
         help="Bigram set: a name, or a .json file; else the character's, else english.",
     ),

@@ -213,7 +213,7 @@ def _check(outputs: tuple[str, ...], how: dict[str, Any], *inputs: object) -> No
 
         if is_pictures(how["character"]):
             load_pictures(how["character"]).no_model()
-    names = ("overrides", "reduction", "edits", "mapping", "pictures")
+    names = ("overrides", "reduction", "edits", "mapping", "markers", "pictures")
     read = files_read(how["character"], how["bigram_set"])
     keep_inputs(outputs, (*inputs, *read, *(how[name] for name in names)))
 

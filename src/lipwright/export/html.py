@@ -105,6 +105,8 @@ def _player() -> tuple[str, str]:
 
 def _content(performance: Performance) -> dict[str, Any]:
     animation, speech = performance.animation, performance.speech
+    if performance.curves is not None:
+        animation = performance.curves()
     return {
         "text": speech.text,
         "engine": animation.engine,

@@ -11,14 +11,17 @@ from lipwright.marker_faces.driving import MarkerFace, drive, marker_face
 from lipwright.marker_faces.face_mesh import FaceMesh, read_face_mesh
 from lipwright.marker_faces.layout import MarkerLayout
 from lipwright.marker_faces.marker_file import MarkerFile, read_marker_file
+from lipwright.marker_faces.telling import ByMarkers, by_markers
 
 __all__ = [
     "Binding",
+    "ByMarkers",
     "FaceMesh",
     "MarkerFace",
     "MarkerFile",
     "MarkerLayout",
     "bind",
+    "by_markers",
     "drive",
     "marker_face",
     "read_face_mesh",
