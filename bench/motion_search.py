@@ -4,8 +4,10 @@ Two databases. *Open*: 18,000 units of random words of the pronouncing dictionar
 searched are words that it lacks, so matches are short, as in the paper's experiments.
 *Grid*, where the recordings are there: 497 of their sentences, and 51 words in all; phones
 are shared out evenly over the measured words, which is good enough to search. Sound is
-made: a mean per phone, with noise. Then the open database is repeated with noise, 10 and
-50 times (a million units) and, with ``all``, 280 times (5 million).
+made: a mean per phone, with noise. Then 10,000 units of the open database are repeated with
+noise, 10 and 100 times (a million units) and, with ``all``, 500 times (5 million). What
+``growth`` prints are exponents: time goes with that power of the number of units, or of
+phones; with the logarithm it is near 0.
 
 Issue 5 asks: 38 phones on about 18,000 units: greedy 0.3 ms, optimal 5 ms; open in 50 ms at
 any size; greedy's time logarithmic in the database; a search process under 300 MB.
@@ -35,7 +37,7 @@ from lipwright.engines.motion.database import Database, Settings, open_database
 from lipwright.engines.motion.graph import Graph, MergedGraph, UnitGraph
 from lipwright.engines.motion.info import info
 from lipwright.engines.motion.preparing import Prepared, prepare
-from lipwright.engines.motion.search import Costs, Search, greedy, optimal, pq
+from lipwright.engines.motion.search import Costs, Search, greedy, optimal, pq, several
 from lipwright.engines.motion.storage import write
 from lipwright.engines.motion.take import Take
 from lipwright.phones import PhoneTrack
@@ -47,10 +49,13 @@ from lipwright.timeline import Interval, Tier
 
 PAPER = (22, 37, 38)
 LONG = (38, 100, 500, 1000, 5000)
-REPEATED = (1, 10, 50)
-REPEATED_ALL = 280
+GROWN = 260
+"""Takes of the database that is repeated: 10,000 units."""
+REPEATED = (1, 10, 100)
+REPEATED_ALL = 500
 CAP = 20.0
 """Seconds for one PQ search; the paper's took up to 650."""
+BOTH: dict[str, Search] = {"greedy": greedy, "optimal": optimal}
 NOISY = ("unit_sound", "seams", "unusual")
 Numbers = NDArray[Any]
 Corpus = tuple[list[Prepared], list[Prepared]]
@@ -139,8 +144,8 @@ def sound_of(held: Database, wanted: Numbers) -> Numbers:
     return (held.unit_sound[units] + noise).astype(np.float32)
 
 
-def measure_search(what: str, search: Search, graph: Graph, wanted: Numbers) -> None:
-    """Time, jumps and cost of one search."""
+def measure_search(what: str, search: Search, graph: Graph, wanted: Numbers) -> float:
+    """Time, jumps and cost of one search; returns the median, ms."""
     costs = Costs(graph, sound_of(graph.database, wanted))
     start = time.perf_counter()
     path = search(graph, wanted, costs)
@@ -152,6 +157,22 @@ def measure_search(what: str, search: Search, graph: Graph, wanted: Numbers) -> 
         timed = {"median_ms": round(1e3 * once, 1)}
     found = {"jumps": path.jumps, "cost": round(path.cost, 3), "complete": path.complete}
     say(f"search, {what}", **timed, **found)
+    return timed["median_ms"]
+
+
+def measure_several(what: str, held: Database, wanted: Numbers) -> float:
+    """Time of the search for several paths, which needs lengths and classes besides."""
+    lengths, classes = np.full(len(wanted), 0.1), np.arange(len(held.labels))
+    sound = sound_of(held, wanted)
+    timed = milliseconds(lambda: several(held, wanted, lengths, classes, sound), 5)
+    say(f"search, {what}", **timed)
+    return timed["median_ms"]
+
+
+def exponent(sizes: Sequence[int], times: Sequence[float]) -> float:
+    """With which power of the size the time grows."""
+    slope = np.polyfit(np.log(sizes), np.log(times), 1)[0]
+    return round(float(slope), 3)
 
 
 def noisy(rows: Numbers, times: int, rng: np.random.Generator) -> Numbers:
@@ -205,14 +226,22 @@ def repeated(held: Database, times: int, folder: Path) -> None:
     write(folder, header, arrays)
 
 
-def measure_size(folder: Path, left: Sequence[Prepared], searches: dict[str, Search]) -> None:
+def measure_size(
+    folder: Path, left: Sequence[Prepared], searches: dict[str, Search]
+) -> tuple[int, dict[str, float]]:
     """Opening and searching one database, and the memory that a process needs for it."""
     held = open_database(folder)
-    size = f"{len(held.label):,} units"
-    say(f"open, {size}", **milliseconds(lambda: open_database(folder)))
-    wanted = line(left, held, 38)
-    for name, search in searches.items():
-        measure_search(f"38 phones, {size}: {name}", search, UnitGraph(held), wanted)
+    count = len(held.label)
+    size = f"{count:,} units"
+    times = {"open": milliseconds(lambda: open_database(folder))["median_ms"]}
+    say(f"open, {size}", median_ms=times["open"])
+    for phones in PAPER:
+        wanted = line(left, held, phones)
+        for name, search in searches.items():
+            what = f"{phones} phones, {size}: {name}"
+            times[name] = measure_search(what, search, UnitGraph(held), wanted)
+        if "optimal" in searches:
+            times["several"] = measure_several(f"{phones} phones, {size}: several", held, wanted)
     code = (
         "import numpy as np\n"
         "from lipwright.engines.motion.database import open_database\n"
@@ -223,6 +252,7 @@ def measure_size(folder: Path, left: Sequence[Prepared], searches: dict[str, Sea
     )
     if Path("/proc/self/status").exists():
         say(f"memory of a search process, {size}", peak_mb=own_peak_mb(code))
+    return count, times
 
 
 def own_peak_mb(code: str) -> float:
@@ -266,16 +296,25 @@ def measure_paper(name: str, corpus: Corpus, folder: Path) -> Database:
     return held
 
 
-def measure_growth(held: Database, left: Sequence[Prepared], folder: Path) -> None:
+def measure_growth(kept: Sequence[Prepared], left: Sequence[Prepared], folder: Path) -> None:
     """Against the utterance's length and against the database's size."""
+    held = build(folder / "grown", kept[:GROWN])
+    by_length: dict[str, list[float]] = {"greedy": [], "optimal": [], "several": []}
     for count in LONG:
         wanted = line(left, held, count)
-        measure_search(f"{count} phones: greedy", greedy, UnitGraph(held), wanted)
-        measure_search(f"{count} phones: optimal", optimal, UnitGraph(held), wanted)
-    both: dict[str, Search] = {"greedy": greedy, "optimal": optimal}
+        for name, search in BOTH.items():
+            found = measure_search(f"{count} phones: {name}", search, UnitGraph(held), wanted)
+            by_length[name].append(found)
+        by_length["several"].append(measure_several(f"{count} phones: several", held, wanted))
+    say("growth with the phones", **{name: exponent(LONG, t) for name, t in by_length.items()})
+    sizes: list[tuple[int, dict[str, float]]] = []
     for times in REPEATED:
         repeated(held, times, folder / "repeated")
-        measure_size(folder / "repeated", left, both)
+        sizes.append(measure_size(folder / "repeated", left, BOTH))
+    counts = [count for count, _ in sizes]
+    names = sizes[0][1]
+    powers = {name: exponent(counts, [found[name] for _, found in sizes]) for name in names}
+    say("growth with the units", **powers)
     if "all" in sys.argv:
         repeated(held, REPEATED_ALL, folder / "repeated")
         measure_size(folder / "repeated", left, {"greedy": greedy})
@@ -291,7 +330,8 @@ if __name__ == "__main__":
     place = Path(tempfile.mkdtemp(prefix="lipwright-bench-"))
     try:
         for title, both_parts in corpora():
-            made = measure_paper(title, both_parts, place)
-        measure_growth(made, both_parts[1], place)
+            if "growth" not in sys.argv:
+                measure_paper(title, both_parts, place)
+        measure_growth(*both_parts, place)
     finally:
         shutil.rmtree(place, ignore_errors=True)

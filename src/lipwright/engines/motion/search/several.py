@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 from lipwright.engines.motion.database import Database
 
 Floats = NDArray[np.float64]
+Singles = NDArray[np.float32]
 Nodes = NDArray[np.int64]
 
 PATHS = 12
@@ -102,7 +103,7 @@ def several(
         for place in range(len(asked))
     ]
     seams = [_seams(database, one.units, other.units) for one, other in pairwise(phones)]
-    costs = [phone.cost.copy() for phone in phones]
+    costs = [phone.cost.astype(np.float32) for phone in phones]
     found = np.empty((paths, len(asked)), np.int64)
     for path in range(paths):
         for place, chosen in enumerate(_cheapest(costs, seams)):
@@ -176,26 +177,28 @@ def _strangeness(
     return cost
 
 
-def _cheapest(costs: list[Floats], seams: list[Floats]) -> list[int]:
+def _cheapest(costs: list[Singles], seams: list[Singles]) -> list[int]:
     """Return, for each phone, the place of its unit on the cheapest path."""
     so_far, ways = costs[0], []
     for seam, cost in zip(seams, costs[1:], strict=True):
-        through = so_far[:, None] + seam
-        way = through.argmin(axis=0)
+        through = seam + so_far
+        way = through.argmin(axis=1)
         ways.append(way)
-        so_far = through[way, np.arange(len(cost))] + cost
+        so_far = through[np.arange(len(cost)), way] + cost
     places = [int(so_far.argmin())]
     for way in reversed(ways):
         places.append(int(way[places[-1]]))
     return places[::-1]
 
 
-def _seams(database: Database, left: Nodes, right: Nodes) -> Floats:
-    """What it costs to go from units to others: (A, B)."""
-    end = database.seams[left, 1].astype(np.float64)
-    begin = database.seams[right, 0].astype(np.float64)
-    squares = np.einsum("ak,ak->a", end, end)[:, None] + np.einsum("bk,bk->b", begin, begin)
-    apart = JUMP + np.sqrt(np.maximum(squares - 2.0 * end @ begin.T, 0.0))
-    follows = left[:, None] + 1 == right
-    follows &= database.take[left][:, None] == database.take[right]
-    return np.where(follows, 0.0, apart)
+def _seams(database: Database, left: Nodes, right: Nodes) -> Singles:
+    """What it costs to go from units to others: (B, A), single precision is enough."""
+    end, begin = database.seams[left, 1], database.seams[right, 0]
+    squares = np.einsum("bk,bk->b", begin, begin)[:, None] + np.einsum("ak,ak->a", end, end)
+    squares -= 2.0 * begin @ end.T
+    apart: Singles = np.sqrt(np.maximum(squares, 0.0, out=squares), out=squares)
+    apart += JUMP
+    follows = right[:, None] == left + 1
+    follows &= database.take[right][:, None] == database.take[left]
+    apart[follows] = 0.0
+    return apart
