@@ -20,6 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lipwright.engines.motion.database import Database
+from lipwright.phones import SILENCE
 
 Floats = NDArray[np.float64]
 Singles = NDArray[np.float32]
@@ -45,6 +46,8 @@ its mean."""
 OTHER, OTHER_ALIKE = 1.0, 0.3
 """What a unit of another phone costs where phones are unsure; of the same class, less."""
 UNSURE_SOUND = 2.0
+LONG, LONGEST = 200, 400
+"""Phones after which a line is cut at the next silence, and at the latest."""
 _SHORTEST = 0.02
 
 
@@ -89,27 +92,40 @@ def several(
     (M, N) int64
     """
     asked = [int(label) for label in wanted]
-    phones = [
-        _phone(
-            database,
-            asked,
-            place,
-            float(lengths[place]),
-            classes,
-            sound,
-            unusual=UNUSUAL if paths == 1 else 0.0,
-            unsure=unsure,
-        )
-        for place in range(len(asked))
-    ]
-    seams = [_seams(database, one.units, other.units) for one, other in pairwise(phones)]
-    costs = [phone.cost.astype(np.float32) for phone in phones]
     found = np.empty((paths, len(asked)), np.int64)
-    for path in range(paths):
-        for place, chosen in enumerate(_cheapest(costs, seams)):
-            found[path, place] = phones[place].units[chosen]
-            costs[place][chosen] += USED
+    for stretch in _stretches(database, asked):
+        phones = [
+            _phone(
+                database,
+                asked,
+                place,
+                float(lengths[place]),
+                classes,
+                sound,
+                unusual=UNUSUAL if paths == 1 else 0.0,
+                unsure=unsure,
+            )
+            for place in stretch
+        ]
+        seams = [_seams(database, one.units, other.units) for one, other in pairwise(phones)]
+        costs = [phone.cost.astype(np.float32) for phone in phones]
+        for path in range(paths):
+            for place, chosen in enumerate(_cheapest(costs, seams)):
+                found[path, stretch.start + place] = phones[place].units[chosen]
+                costs[place][chosen] += USED
     return found
+
+
+def _stretches(database: Database, wanted: list[int]) -> list[range]:
+    """Cut a long line, in silences where it has any, so that memory does not grow with it."""
+    silence = database.labels.index(SILENCE) if SILENCE in database.labels else -1
+    found, start = [], 0
+    for place, label in enumerate(wanted):
+        held = place + 1 - start
+        if held >= LONGEST or (held >= LONG and label == silence):
+            found.append(range(start, place + 1))
+            start = place + 1
+    return [*found, range(start, len(wanted))] if start < len(wanted) else found
 
 
 def _phone(

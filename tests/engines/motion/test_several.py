@@ -1,0 +1,123 @@
+"""Paths by cost alone: the cheapest of all, then others; the line's phones; long lines."""
+
+from __future__ import annotations
+
+import sys
+from itertools import product
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from lipwright.engines.motion.database import Database
+from lipwright.engines.motion.search import PATHS, several
+from tests.engines.motion.small import database
+
+# The package has a function of the module's name.
+module = sys.modules[several.__module__]
+words = st.lists(st.text("abc", min_size=1, max_size=5), min_size=1, max_size=3)
+lines = st.text("abc", min_size=1, max_size=4)
+
+
+def wanted_in(held: Database, line: str) -> np.ndarray:
+    return np.array([held.labels.index(one) if one in held.labels else 0 for one in line])
+
+
+def asked(held: Database, line: str, paths: int, seed: int = 3) -> np.ndarray:
+    """What the search finds for a line of made-up sound and lengths."""
+    wanted, lengths, classes, sound = arguments(held, line, seed)
+    return several(held, wanted, lengths, classes, sound, paths)
+
+
+def arguments(held: Database, line: str, seed: int = 3) -> tuple[np.ndarray, ...]:
+    rng = np.random.default_rng(seed)
+    sound = rng.normal(size=(len(line), held.unit_sound.shape[1])).astype(np.float32)
+    lengths = rng.uniform(0.05, 0.2, len(line))
+    return wanted_in(held, line), lengths, np.arange(len(held.labels)), sound
+
+
+def cheapest_of_all(held: Database, line: str) -> float:
+    """The least cost of any path, each added up from its own parts."""
+    wanted, lengths, classes, sound = arguments(held, line)
+    phones = [
+        module._phone(
+            held,
+            wanted.tolist(),
+            place,
+            float(lengths[place]),
+            classes,
+            sound,
+            unusual=module.UNUSUAL,
+            unsure=False,
+        )
+        for place in range(len(line))
+    ]
+    costs = []
+    for path in product(*(range(len(phone.units)) for phone in phones)):
+        cost = sum(float(phone.cost[at]) for phone, at in zip(phones, path, strict=True))
+        for place in range(1, len(path)):
+            left = phones[place - 1].units[[path[place - 1]]]
+            right = phones[place].units[[path[place]]]
+            cost += float(module._seams(held, left, right)[0, 0])
+        costs.append((cost, [int(p.units[a]) for p, a in zip(phones, path, strict=True)]))
+    return min(costs)[0]
+
+
+def cost_of(held: Database, line: str, units: list[int]) -> float:
+    """What one path costs."""
+    wanted, lengths, classes, sound = arguments(held, line)
+    total = 0.0
+    for place, unit in enumerate(units):
+        phone = module._phone(
+            held,
+            wanted.tolist(),
+            place,
+            float(lengths[place]),
+            classes,
+            sound,
+            unusual=module.UNUSUAL,
+            unsure=False,
+        )
+        total += float(phone.cost[phone.units.tolist().index(unit)])
+        if place:
+            total += float(
+                module._seams(held, np.array([units[place - 1]]), np.array([unit]))[0, 0]
+            )
+    return total
+
+
+@settings(max_examples=60, deadline=None)
+@given(words=words, line=lines)
+def test_one_path_is_the_cheapest_of_all(words: list[str], line: str) -> None:
+    held = database(*words)
+    path = asked(held, line, 1)[0].tolist()
+    assert cost_of(held, line, path) == pytest.approx(cheapest_of_all(held, line), abs=1e-4)
+
+
+def test_several_paths_speak_the_line_with_other_units() -> None:
+    held = database(*(["abcab"] * 20))
+    found = asked(held, "abca", PATHS)
+    assert found.shape == (PATHS, 4)
+    assert (held.label[found] == wanted_in(held, "abca")).all()
+    for phone in found.T:
+        assert len(set(phone.tolist())) > PATHS / 2  # used units cost more
+
+
+def test_what_was_recorded_so_is_found() -> None:
+    held = database("abcacb", "bacabc", "cabbac")
+    spans = held.spans[6:12]
+    lengths = np.diff(spans)[:, 0] / held.rate
+    classes = np.arange(len(held.labels))
+    found = several(held, held.label[6:12], lengths, classes, held.unit_sound[6:12], 1)
+    assert found[0].tolist() == list(range(6, 12))
+
+
+def test_a_long_line_is_cut_and_still_spoken(monkeypatch: pytest.MonkeyPatch) -> None:
+    held = database("abcacb", "bacabc", "cabbac")
+    line = "abcabc" * 10
+    whole = asked(held, line, 2)
+    monkeypatch.setattr(module, "LONGEST", 7)
+    cut = asked(held, line, 2)
+    assert cut.shape == whole.shape
+    assert (held.label[cut] == held.label[whole]).all()
