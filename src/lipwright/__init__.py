@@ -15,10 +15,12 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from lipwright.acting import bind_markers
     from lipwright.animation import Animation
     from lipwright.character import load_character
     from lipwright.engines.bigram import BigramEngine, BigramSet, load_set
     from lipwright.errors import InputError, LipwrightError, MissingExtraError, OutputError
+    from lipwright.motion_takes import build_motion
     from lipwright.performance import Performance
     from lipwright.phones import PhoneTrack
     from lipwright.pipeline import align, animate, from_labels, hear, recognise, save, say
@@ -47,6 +49,8 @@ _HOMES = {
     "Tier": "timeline",
     "align": "pipeline",
     "animate": "pipeline",
+    "bind_markers": "acting",
+    "build_motion": "motion_takes",
     "from_labels": "pipeline",
     "hear": "pipeline",
     "load_character": "character",
@@ -73,6 +77,8 @@ __all__ = [
     "Tier",
     "align",
     "animate",
+    "bind_markers",
+    "build_motion",
     "from_labels",
     "hear",
     "load_character",
