@@ -11,7 +11,8 @@ import csv
 import shutil
 import tempfile
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -20,6 +21,7 @@ import numpy as np
 from bench.measure import say
 from bench.quality import GRID, only
 from lipwright import pipeline
+from lipwright.animation import Animation
 from lipwright.engines.motion.building import build, takes_of
 from lipwright.engines.motion.database import Database, open_database
 from lipwright.engines.motion.engine import MotionEngine
@@ -31,7 +33,9 @@ from lipwright.speech import Speech
 EVERY, MOST = 9, 60
 SHARED = ("bin", "blue", "a"), ("lay", "green", "b"), ("place", "red", "f"), ("set", "white", "m")
 """Groups of words that are left out together: a command, a colour, a letter."""
+SEARCHES = "several", "cheapest", "optimal", "greedy", "pq"
 Line = tuple[Speech, Recording]
+Make = Callable[[Speech], Animation]
 
 
 def lines(names: Sequence[str], texts: dict[str, str]) -> list[Line]:
@@ -44,10 +48,10 @@ def lines(names: Sequence[str], texts: dict[str, str]) -> list[Line]:
     return found
 
 
-def figures(engine: MotionEngine, some: Sequence[Line], words: frozenset[str]) -> dict[str, Any]:
-    """How like the face an engine's animations are, in all frames or in those of some words."""
+def figures(make: Make, some: Sequence[Line], words: frozenset[str]) -> dict[str, Any]:
+    """How like the face some animations are, in all frames or in those of some words."""
     before = time.perf_counter()
-    made = [engine.animate(speech) for speech, _ in some]
+    made = [make(speech) for speech, _ in some]
     seconds = (time.perf_counter() - before) / len(some)
     faces = [
         only(face, one, words) if words else face for one, (_, face) in zip(made, some, strict=True)
@@ -68,6 +72,13 @@ def figures(engine: MotionEngine, some: Sequence[Line], words: frozenset[str]) -
         "jumps": round(float(np.mean([one.report.get("jumps", 0) for one in made])), 2),
         "ms_per_line": round(1e3 * seconds, 1),
     }
+
+
+def animated(speech: Speech, database: Path | None = None) -> Animation:
+    """A line by the bigram engine, or by the motion engine, told in poses."""
+    if database is None:
+        return pipeline.animate(speech).animation
+    return pipeline.animate(speech, engine="motion", database=database, controls="poses").animation
 
 
 def without(database: Database, texts: dict[str, str], words: frozenset[str], to: Path) -> Database:
@@ -108,14 +119,16 @@ def measure(place: Path) -> None:
         components=len(database.basis),
     )
     unheard = lines(left_out, texts)
-    for search in ("several", "optimal", "greedy"):
-        engine = MotionEngine(database, search)
-        say(f"motion, sentences left out: {search}", **figures(engine, unheard, frozenset()))
+    ways: dict[str, Make] = {one: MotionEngine(database, one).animate for one in SEARCHES}
+    ways["several, told in poses"] = partial(animated, database=place / "database")
+    ways["the bigram engine"] = animated
+    for name, make in ways.items():
+        say(f"motion, sentences left out: {name}", **figures(make, unheard, frozenset()))
     for group in SHARED:
         words = frozenset(group)
         own = [name for name in names if words & set(texts[name].split())][::4][:MOST]
         part = without(database, texts, words, place / "-".join(group))
-        found = figures(MotionEngine(part), lines(own, texts), words)
+        found = figures(MotionEngine(part).animate, lines(own, texts), words)
         say(f"motion, words left out: {' '.join(group)}", takes=len(part.take_start), **found)
 
 

@@ -29,7 +29,7 @@ def test_each_path_gets_its_own_format(tmp_path: Path) -> None:
 
 BAD = {
     "unknown suffix": (["a.fbx"], InputError, r"a\.fbx: the suffix '\.fbx' names no format; "),
-    "known ones": (["a.fbx"], InputError, r"expected one of \.json \.csv \.glb \.html \.wav"),
+    "known ones": (["a.fbx"], InputError, r"expected one of \.json \.csv \.c3d \.glb \.html \.wav"),
     "no suffix": (["a"], InputError, r"a: has no suffix; expected one of"),
     "the same file": (["b.csv", "./b.csv"], InputError, r"b\.csv: is named twice"),
     "two streams": (["-", "-"], InputError, r"-: is named twice"),
