@@ -49,20 +49,22 @@ def are_markers(found: Sequence[TakeFiles], folder: str) -> bool:
 def rest_of_takes(found: Sequence[TakeFiles]) -> RestFace | None:
     """Return the rest face of the first take that keeps all its markers.
 
-    If none of the first eight does, that of the take that keeps most; None where none of
-    them can be cleaned.
+    If none of the first eight that can be cleaned does, that of the take that keeps most;
+    None where no take can be cleaned.
     """
     from lipwright.engines.motion.capture import clean, read_motion
 
     best: RestFace | None = None
-    for take in found[:TRIED]:
+    tried = 0
+    for take in found:
         try:
             report = clean(read_motion(take.motion))[1]
         except LipwrightError:
             continue  # whoever prepares it says what is wrong
         if best is None or len(report.rest.labels) > len(best.labels):
             best = report.rest
-        if not report.refused:
+        tried += 1
+        if not report.refused or tried == TRIED:
             break
     return best
 
