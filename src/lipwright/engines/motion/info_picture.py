@@ -30,7 +30,7 @@ GROUPS: dict[str, tuple[str, ...]] = {
 }
 """Classes of the Common Phoneme Set in the order of the picture."""
 CELL, GAP = 18, 9
-EDGE, NAMES, COUNTS, BARS, LABEL = 26, 18, 46, 220, 44
+EDGE, NAMES, COUNTS, BARS, LABEL = 26, 18, 52, 220, 44
 LEFT = EDGE + NAMES + COUNTS + BARS + LABEL
 TOP, CHART, BETWEEN = 138, 140, 74
 LEAST_SHADE, DEEPEST, WIDEST, CLOSEST = 0.2, 10, 36, 44
@@ -221,11 +221,14 @@ def _legend(of: Database, rows: _Rows) -> Iterator[str]:
     yield _none(x + 7, y + 31) + _text(x + 24, y + 35, "no unit: the nearest phone stands in")
     yield _text(x, y + 64, "how often a pair occurs", "soft")
     most = int(pair_counts(of).max())
-    for count in (*(tick for tick in TICKS if tick < 0.7 * most), most)[-6:]:
+    for count in (*(tick for tick in TICKS if tick < 0.7 * most), most):
+        wide = 32 + 7 * len(f"{count:,}")
+        if x + wide > LEFT - LABEL:
+            x, y = EDGE, y + 22
         depth = f' fill-opacity="{format_number(shade(max(count, 1), most), 2)}"'
         yield mark.format("bed", x, y + 74, "") + mark.format("pair", x, y + 74, depth)
         yield _text(x + 18, y + 86, f"{count:,}")
-        x += 32 + 7 * len(f"{count:,}")
+        x += wide
 
 
 def _variance(shares: tuple[float, ...], top: float, side: float) -> Iterator[str]:
@@ -250,7 +253,7 @@ def _variance(shares: tuple[float, ...], top: float, side: float) -> Iterator[st
         )
         last = number == len(shares)
         if last or (number % step == 1 % step and len(shares) - number >= step):
-            said.append(_text(x, y - 7, f"{100 * total:.1f}", "said", anchor="middle"))
+            said.append(_text(x, y - 9, f"{100 * total:.1f}", "said", anchor="middle"))
             said.append(_text(x, top + CHART + 26, f"{number}", "soft", anchor="middle"))
     yield f'<polyline class="sum" points="{" ".join(points)}"/>'
     for point in points:
