@@ -12,9 +12,11 @@ import multiprocessing
 import os
 import pickle
 import shutil
+import threading
 from collections.abc import Callable, Container, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import dataclass, replace
+from multiprocessing.connection import wait
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -41,7 +43,7 @@ if TYPE_CHECKING:
 
 Progress = Callable[[float], None]
 _PART = ".takes"
-_VERSION = 2
+_VERSION = 3
 
 
 @dataclass(frozen=True, slots=True)
@@ -160,7 +162,7 @@ def build_motion(
     OutputError
         If the database cannot be written.
     """
-    from lipwright.engines.motion.building import append, build
+    from lipwright.engines.motion.building import append, build, held_already
     from lipwright.engines.motion.capture import find_takes
     from lipwright.engines.motion.database import Settings, open_database
     from lipwright.engines.motion.learnt import keep_learnt
@@ -180,13 +182,16 @@ def build_motion(
         notes, refused = [*notes, *lost], [*refused, *short]
     heard = sum(take.has_only_sound for take in found)
     if not prepared:
+        shutil.rmtree(part, ignore_errors=True)
         reasons = "; ".join(refused[:3])
         cure = "" if by_ear or not heard else "takes without words are used with --by-ear"
         raise InputError("no take can be used", where=str(folder), expected=reasons, cure=cure)
     if by_ear and heard:
         notes.append(f"takes without words: {heard}; their phones are heard, by an English model")
     if old is not None:
-        made = append(target, prepared)
+        there = held_already(old, prepared)
+        notes += [f"{name}: is in the database already" for name in sorted(there)]
+        made = append(target, (take for take in prepared if take.name not in there))
     else:
         face, rigid = _resting(prepared[0].channels, rest)
         made = build(target, prepared, Settings(clusters=clusters), face, rigid)
@@ -252,14 +257,25 @@ def _prepared(
 ) -> list[_Answer]:
     """Prepare takes, or take them from where an earlier run left them."""
     part.mkdir(parents=True, exist_ok=True)
-    kept = {take.name: part / f"{_key(take, how)}.take" for take in found}
-    missing = [take for take in found if not kept[take.name].is_file()]
-    done = len(found) - len(missing)
-    for _ in _work(missing, kept, how, workers):
-        done += 1
+    paths = {take.name: part / f"{_key(take, how)}.take" for take in found}
+    answers = {name: answer for name, path in paths.items() if (answer := _kept(path))}
+    missing = [take for take in found if take.name not in answers]
+    for report in _work(missing, paths, how, workers):
+        path = paths[report.name]
+        kept = None if report.refused else pickle.loads(path.read_bytes())
+        answers[report.name] = kept or _Answer(None, report)
         if progress is not None:
-            progress(0.95 * done / len(found))
-    return [pickle.loads(kept[take.name].read_bytes()) for take in found]
+            progress(0.95 * len(answers) / len(found))
+    return [answers[take.name] for take in found]
+
+
+def _kept(path: Path) -> _Answer | None:
+    """Return what was kept of a take, or None where it is missing or damaged."""
+    try:
+        answer = pickle.loads(path.read_bytes())
+    except (OSError, pickle.UnpicklingError, EOFError, ValueError, LookupError, AttributeError):
+        return None
+    return answer if isinstance(answer, _Answer) else None
 
 
 def _key(take: TakeFiles, how: _How) -> str:
@@ -271,17 +287,17 @@ def _key(take: TakeFiles, how: _How) -> str:
 
 
 def _work(
-    takes: Sequence[TakeFiles], kept: dict[str, Path], how: _How, workers: int | None
-) -> Iterator[str]:
-    """Prepare takes, several at once; give each one's name when it is done."""
+    takes: Sequence[TakeFiles], paths: dict[str, Path], how: _How, workers: int | None
+) -> Iterator[TakeReport]:
+    """Prepare takes, several at once; say of each how it went when it is done."""
     count = min(workers or os.cpu_count() or 1, len(takes))
     if count <= 1:
         for take in takes:
-            yield _one(take, kept[take.name], how)
+            yield _one(take, paths[take.name], how)
         return
     context = multiprocessing.get_context("spawn")
-    with ProcessPoolExecutor(count, mp_context=context) as pool:
-        waiting = [pool.submit(_one, take, kept[take.name], how) for take in takes]
+    with ProcessPoolExecutor(count, mp_context=context, initializer=_end_with_parent) as pool:
+        waiting = [pool.submit(_one, take, paths[take.name], how) for take in takes]
         try:
             for future in as_completed(waiting):
                 yield future.result()
@@ -290,13 +306,30 @@ def _work(
             raise
 
 
-def _one(take: TakeFiles, path: Path, how: _How) -> str:
+def _end_with_parent() -> None:
+    """End this process when the one that started it has ended, killed or not.
+
+    Otherwise it would wait for work for ever.
+    """
+    parent = multiprocessing.parent_process()
+    if parent is None:
+        return
+
+    def follow(sentinel: int) -> None:
+        wait([sentinel])
+        os._exit(1)
+
+    threading.Thread(target=follow, args=(parent.sentinel,), daemon=True).start()
+
+
+def _one(take: TakeFiles, path: Path, how: _How) -> TakeReport:
+    """Prepare a take and keep it; not why it is refused: what it lacked may be there next time."""
     try:
         answer = _prepare(take, how)
     except LipwrightError as error:
-        answer = _Answer(None, TakeReport(take.name, refused=str(error)))
+        return TakeReport(take.name, refused=str(error))
     write_atomically(path, pickle.dumps(answer))
-    return take.name
+    return answer.report
 
 
 def _prepare(files: TakeFiles, how: _How) -> _Answer:

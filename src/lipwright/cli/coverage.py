@@ -98,7 +98,8 @@ def coverage(
     from lipwright import corpus as corpora
     from lipwright.casting import files_read, set_for
     from lipwright.cli.progress import progress
-    from lipwright.engines.bigram.coverage_picture import check_picture, write_picture
+    from lipwright.engines.bigram.coverage_picture import write_picture
+    from lipwright.files import check_picture
 
     if text is not None and _is_file(text):
         text_files = (Path(text), *text_files)

@@ -17,10 +17,7 @@ from lipwright.cli.progress import progress
 from lipwright.cli.report import note
 
 if TYPE_CHECKING:
-    from lipwright.engines.motion.info import Info
     from lipwright.motion_takes import TakeReport
-
-SHOWN = 12
 
 _reading = options.stack(
     click.option(
@@ -133,39 +130,31 @@ def _table(reports: Sequence[TakeReport]) -> bytes:
 
 @motion.command()
 @click.argument("database", type=click.Path(path_type=Path), metavar="DB")
+@click.option("--picture", type=click.Path(path_type=Path), metavar="FILE.svg", help="Draw it.")
 @options.as_json
-def info(database: Path, as_json: bool) -> None:
+def info(database: Path, picture: Path | None, as_json: bool) -> None:
     """Say what a database holds, and what is thin in it."""
+    from lipwright.cli.motion_info import told
     from lipwright.engines.motion.database import open_database
     from lipwright.engines.motion.info import info as count
+    from lipwright.engines.motion.info_picture import write_picture
     from lipwright.engines.motion.synthetic import database_folder
+    from lipwright.files import check_picture
 
+    if picture is not None:
+        check_picture(picture)
     held = open_database(database_folder(database))
     found = count(held)
+    if picture is not None:
+        write_picture(picture, held, str(database))
     if as_json:
         click.echo(json.dumps(asdict(found)))
         return
-    click.echo(_text(database, found))
+    click.echo(told(str(database), held, found))
+    if picture is not None:
+        click.echo(f"  {picture}  (picture)")
     if held.about:
         note(held.about)
-
-
-def _text(database: Path, found: Info) -> str:
-    phones = list(found.units_per_phone.items())
-    most = "  ".join(f"{label} {count}" for label, count in phones[:SHOWN])
-    kept = [f"{100 * share:.1f} %" for share in found.variance]
-    lines = [
-        f"{database}: {found.takes} takes ({found.takes_with_sound} with sound), "
-        f"{found.minutes:.1f} minutes, {found.frames} frames",
-        f"units: {found.units} of {len(phones)} phones, {found.nodes} nodes in the graph",
-        f"most: {most}",
-        f"pairs of phones: {found.bigrams.different} of {found.bigrams.possible}; "
-        f"threes: {found.trigrams.different} of {found.trigrams.possible}",
-        f"variance of {len(kept)} components: {' '.join(kept)}",
-    ]
-    if found.thin:
-        lines.append(f"thin: {' '.join(found.thin)}")
-    return "\n".join(lines)
 
 
 @motion.command()

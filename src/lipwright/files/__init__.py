@@ -8,6 +8,7 @@ This is the only place that replaces files on disk.
 
 from lipwright.files.blocks import text_blocks
 from lipwright.files.keeping import Kept
+from lipwright.files.pictures import check_picture
 from lipwright.files.reading import (
     Version,
     check_document,
@@ -33,6 +34,7 @@ __all__ = [
     "Kept",
     "Version",
     "check_document",
+    "check_picture",
     "check_target",
     "convert",
     "decode_text",

@@ -9,8 +9,9 @@ import pytest
 
 from lipwright.engines.bigram import load_set
 from lipwright.engines.bigram.coverage import Coverage, coverage
-from lipwright.engines.bigram.coverage_picture import check_picture, picture, shade
+from lipwright.engines.bigram.coverage_picture import picture, shade
 from lipwright.errors import InputError, OutputError
+from lipwright.files import check_picture
 from tests.engines.bigram.test_coverage import A_MAP, MAP, SET, lacking, track
 
 SVG = "{http://www.w3.org/2000/svg}"

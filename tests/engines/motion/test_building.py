@@ -12,14 +12,16 @@ from typing import Any
 import numpy as np
 import pytest
 
-from lipwright.engines.motion.building import append, build, takes_of
+from lipwright.engines.motion import storage
+from lipwright.engines.motion.building import append, build, held_already, takes_of
 from lipwright.engines.motion.database import Database, Settings, open_database
 from lipwright.engines.motion.graph import graph_of
 from lipwright.engines.motion.info import info
+from lipwright.engines.motion.learnt import keep_learnt
 from lipwright.engines.motion.preparing import Prepared, prepare
 from lipwright.engines.motion.search import Costs, optimal
 from lipwright.engines.motion.take import Take
-from lipwright.errors import LipwrightError
+from lipwright.errors import LipwrightError, OutputError
 from lipwright.phones import PhoneTrack
 from lipwright.sound import Sound
 from lipwright.timeline import Tier
@@ -103,6 +105,47 @@ def test_adding_nothing_changes_nothing(tmp_path: Path) -> None:
     before = (tmp_path / "db" / "database.json").read_bytes()
     append(tmp_path / "db", [])
     assert (tmp_path / "db" / "database.json").read_bytes() == before
+
+
+def test_adding_nothing_clears_what_a_killed_writer_left(tmp_path: Path) -> None:
+    build(tmp_path / "db", TAKES)
+    for name in (".building-x", "arrays-7"):
+        (tmp_path / "db" / name).mkdir()
+        (tmp_path / "db" / name / "frames.npy").write_bytes(b"part")
+    append(tmp_path / "db", [])
+    assert {path.name for path in (tmp_path / "db").iterdir()} == {"arrays-1", "database.json"}
+    assert len(open_database(tmp_path / "db").label) == 13
+
+
+def test_takes_that_are_held_already_are_those_that_are_the_same(tmp_path: Path) -> None:
+    held = build(tmp_path / "db", TAKES)
+    assert held_already(held, TAKES) == {"abcab-1", "bca-2", "cabba-3"}
+    one, mute, _ = TAKES
+    assert one.features is not None
+    spans = replace(one.cut, spans=one.cut.spans + 0.1)
+    labels = replace(one.cut, labels=tuple("abcac"))
+    for other in (
+        replace(one, name="another"),
+        replace(one, values=one.values + 1),
+        replace(one, features=one.features + 1),
+        replace(one, features=None),
+        replace(mute, features=one.features),
+        replace(one, cut=spans),
+        replace(one, cut=labels),
+        replace(one, start=1.0),
+        replace(one, channels=CHANNELS[::-1]),
+        prepared("ab", name=one.name),
+    ):
+        assert held_already(held, [other]) == frozenset()
+
+
+def test_what_was_learnt_from_the_old_takes_does_not_stand_beside_new_ones(tmp_path: Path) -> None:
+    keep_learnt(build(tmp_path / "db", TAKES))
+    assert (tmp_path / "db" / "learnt.json").exists()
+    # As many frames and units, and as much variance.
+    others = [replace(take, channels=("jawOpen", "mouthSmile", "mouthClose")) for take in TAKES]
+    build(tmp_path / "db", others)
+    assert not (tmp_path / "db" / "learnt.json").exists()
 
 
 def test_what_is_to_be_told_of_it_stays_when_takes_are_added(tmp_path: Path) -> None:
@@ -198,6 +241,21 @@ def test_a_failing_build_leaves_the_old_one(
 
     monkeypatch.setattr(np, "save", full)
     with pytest.raises(LipwrightError, match=r"db: cannot be written \(No space left on device\)"):
+        append(tmp_path / "db", TAKES[2:])
+    assert contents(open_database(tmp_path / "db")) == old
+    assert len(list((tmp_path / "db").iterdir())) == 2
+
+
+def test_a_header_that_cannot_be_written_leaves_the_old_one(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    old = contents(build(tmp_path / "db", TAKES[:2]))
+
+    def full(*_: Any) -> None:
+        raise OutputError("the disk is full")
+
+    monkeypatch.setattr(storage, "write_atomically", full)
+    with pytest.raises(LipwrightError, match="the disk is full"):
         append(tmp_path / "db", TAKES[2:])
     assert contents(open_database(tmp_path / "db")) == old
     assert len(list((tmp_path / "db").iterdir())) == 2

@@ -7,15 +7,12 @@ is marked.
 
 from __future__ import annotations
 
-import os
-from collections.abc import Iterable
 from pathlib import Path
 from xml.sax.saxutils import escape
 
 from lipwright.engines.bigram.coverage import Coverage, State
 from lipwright.engines.bigram.model import Pair
-from lipwright.errors import InputError
-from lipwright.files import check_target, format_number, write_atomically
+from lipwright.files import format_number, write_atomically
 from lipwright.phones import SILENCE
 
 CELL, LEFT, TOP, RIGHT, BOTTOM = 24, 86, 118, 190, 22
@@ -28,31 +25,6 @@ STATES: dict[State, str] = {
     "stand-in": "made from single curves",
     "no curve": "a phone without any curve",
 }
-
-
-def check_picture(path: str | Path, read: Iterable[object] = ()) -> None:
-    """Refuse a name that no picture can have, before any work is spent.
-
-    Parameters
-    ----------
-    path : path
-    read : iterable
-        What is read: it must not be written over.
-
-    Raises
-    ------
-    InputError
-        If the suffix is not ``.svg``, or it is a file that is read.
-    OutputError
-        If it cannot be written.
-    """
-    if Path(path).suffix.lower() != ".svg":
-        found = Path(path).suffix or "no suffix"
-        raise InputError(f"a picture with {found!r}", where=str(path), expected=".svg")
-    target = os.path.realpath(path)
-    if any(source and os.path.realpath(str(source)) == target for source in read):
-        raise InputError("would be written over its own input", where=str(path), cure="rename one")
-    check_target(path)
 
 
 def write_picture(path: str | Path, of: Coverage, title: str = "") -> None:

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from lipwright.engines.motion.assembling import MOST_UNITS, assembled
 from lipwright.engines.motion.database import Database, Settings, open_database
 from lipwright.engines.motion.preparing import Prepared
-from lipwright.engines.motion.storage import check_folder, write
+from lipwright.engines.motion.storage import check_folder, clear, write
 from lipwright.engines.motion.units import Cut
 from lipwright.errors import InputError
 
@@ -84,10 +84,38 @@ def append(folder: str | Path, takes: Iterable[Prepared]) -> Database:
     database = open_database(folder)
     new = list(takes)
     if not new:
+        clear(database.folder)
         return database
     old = takes_of(database)
     rest = np.array(database.rest)
     return build(folder, [*old, *new], database.settings, rest, database.rigid, database.about)
+
+
+def held_already(database: Database, takes: Iterable[Prepared]) -> frozenset[str]:
+    """Return the names of takes that a database holds, just as they are.
+
+    Who was stopped after takes were added, before it could say so, adds them again.
+    """
+    held = {take.name: take for take in takes_of(database)}
+    return frozenset(
+        take.name for take in takes if take.name in held and _same(take, held[take.name])
+    )
+
+
+def _same(one: Prepared, other: Prepared) -> bool:
+    def said(take: Prepared) -> tuple[object, ...]:
+        return (take.channels, take.rate, take.start, take.phone_set, take.cut.labels)
+
+    if one.features is None or other.features is None:
+        heard = one.features is other.features
+    else:
+        heard = np.array_equal(one.features, other.features)
+    return (
+        heard
+        and said(one) == said(other)
+        and np.array_equal(one.values, other.values)
+        and np.array_equal(one.cut.spans, other.cut.spans)
+    )
 
 
 def takes_of(database: Database) -> list[Prepared]:

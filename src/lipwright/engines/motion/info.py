@@ -8,10 +8,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lipwright.engines.motion.database import Database
-from lipwright.phones import SILENCE
+from lipwright.phones import SILENCE, load_phone_set
 
 THIN = 10
 """A phone with fewer units than this is thin."""
+_SPARE = ("ax",)
+"""Labels that most dictionaries do without: a database does not lack them."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,6 +93,22 @@ def info(database: Database) -> Info:
         trigrams=_coverage(database, 3),
         variance=tuple(float(one / total) if total else 0.0 for one in database.variance),
     )
+
+
+def lacking(database: Database) -> tuple[str, ...]:
+    """Return the phones of the database's notation that no unit has, in the notation's order."""
+    there = {*database.labels, *_SPARE}
+    known = load_phone_set(database.phone_set).labels
+    return tuple(label for label in known if label not in there)
+
+
+def pair_counts(database: Database) -> NDArray[np.int64]:
+    """Return how often each label comes before each other in a take, (L, L) int64."""
+    labels = len(database.labels)
+    whole = database.take[1:] == database.take[:-1]
+    first, second = database.label[:-1][whole], database.label[1:][whole]
+    key = first.astype(np.int64) * labels + second
+    return np.bincount(key, minlength=labels * labels).reshape(labels, labels)
 
 
 def _coverage(database: Database, length: int) -> Coverage:

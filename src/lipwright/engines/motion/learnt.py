@@ -17,10 +17,10 @@ from lipwright.engines.motion.closures import Opening, opening_of
 from lipwright.engines.motion.database import Database
 from lipwright.engines.motion.joining import Learnt, learn
 from lipwright.engines.motion.lips import opening_row
+from lipwright.engines.motion.storage import LEARNT
 from lipwright.errors import LipwrightError
 from lipwright.files import read_bytes, write_atomically
 
-FILE = "learnt.json"
 _VERSION = 2
 
 
@@ -63,14 +63,14 @@ def keep_learnt(database: Database) -> Known:
     known = learn_known(database)
     row = None if known.row is None else known.row.tolist()
     document = {"of": _of(database), "opening": row, **known.learnt.document()}
-    write_atomically(database.folder / FILE, json.dumps(document).encode())
+    write_atomically(database.folder / LEARNT, json.dumps(document).encode())
     return known
 
 
 def learnt_of(database: Database) -> Known:
     """Return what was learnt from a database; it is learnt anew where nothing is kept."""
     try:
-        document = msgspec.json.decode(read_bytes(database.folder / FILE))
+        document = msgspec.json.decode(read_bytes(database.folder / LEARNT))
         if document["of"] == _of(database):
             kept = document["opening"]
             row = None if kept is None else np.array(kept, np.float64)

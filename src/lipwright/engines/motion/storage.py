@@ -3,8 +3,10 @@
 ``database.json`` names a folder beside it that holds the arrays as ``.npy`` files. New
 arrays are written into a folder of their own, then that folder is renamed, then
 ``database.json`` is replaced: until that last step everyone who opens the database
-finds the old one, after it the new one. What a killed writer left is cleared by the
-next. Two writers at once are not kept apart: the one that ends last has written.
+finds the old one, after it the new one. What was learnt from the old arrays goes just
+before, so that it never stands beside others. What a killed writer left is cleared by
+the next. Two writers at once are not kept apart: one of them may be told that it cannot
+write, and the database is the other's.
 """
 
 from __future__ import annotations
@@ -26,6 +28,7 @@ from lipwright.errors import FileFormatError, InputError, OutputError
 from lipwright.files import read_document, write_atomically
 
 HEADER = "database.json"
+LEARNT = "learnt.json"
 FORMAT, VERSION = "lipwright/motion-database", 1
 _BUILDING = ".building-"
 _ARRAYS = "arrays-"
@@ -89,8 +92,25 @@ def write(folder: Path, header: Mapping[str, Any], arrays: Mapping[str, NDArray[
             raise
     document = {"format": FORMAT, "version": VERSION, "arrays": name, **header}
     text = json.dumps(document, ensure_ascii=False, indent=1, allow_nan=False)
-    write_atomically(folder / HEADER, (text + "\n").encode())
+    try:
+        with contextlib.suppress(OSError):
+            (folder / LEARNT).unlink()
+        write_atomically(folder / HEADER, (text + "\n").encode())
+    except OutputError:
+        shutil.rmtree(folder / name, ignore_errors=True)
+        raise
     _clear(folder, keep=name)
+
+
+def clear(folder: Path) -> None:
+    """Remove what killed writers left in a database's folder.
+
+    Raises
+    ------
+    InputError, FileFormatError
+        If the folder is no database, or its header is broken: then nothing is removed.
+    """
+    _clear(folder, keep=str(read_header(folder)["arrays"]))
 
 
 def _save(path: Path, array: NDArray[Any]) -> None:
