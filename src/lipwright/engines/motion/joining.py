@@ -184,8 +184,13 @@ def join(
     times: Floats = start + (np.arange(count, dtype=np.float64) + 0.5) / rate
     found = cache(pairs or PairTable(data))  # paths of one line ask for the same pairs
     courses = _courses(data, paths, held, phones, features)
-    drawn = [_drawn(data, course, times, found) for course in courses]
-    frames: Floats = np.mean([one.frames for one in drawn], axis=0)
+    sources = [_sources(data, course, times) for course in courses]
+    unit = np.stack([one.units[phone] for one, (phone, _) in zip(courses, sources, strict=True)])
+    source = np.stack([positions for _, positions in sources])
+    own = at(data, source.ravel(), *take_bounds(data, unit.ravel()))
+    splices = [find_splices(data, course, found) for course in courses]
+    drawn = blend(data, courses, splices, times, own.reshape(*unit.shape, -1))
+    frames: Floats = drawn.mean(axis=0)
     if learnt is not None:
         frames = low_pass(frames, rate, learnt.cut_offs)
     motion, pulled = motion_of(data, frames), 0
@@ -197,29 +202,11 @@ def join(
         components=frames,
         start=start,
         rate=rate,
-        unit=drawn[0].unit,
-        source=drawn[0].source,
-        splices=drawn[0].splices,
+        unit=unit[0],
+        source=source[0],
+        splices=tuple(splices[0]),
         pulled=pulled,
     )
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class _Drawn:
-    """The motion of one path, and where it comes from."""
-
-    frames: Floats
-    unit: Ints
-    source: Floats
-    splices: tuple[Splice, ...]
-
-
-def _drawn(data: Recorded, course: Course, times: Floats, pairs: Pairs) -> _Drawn:
-    phone, source = _sources(data, course, times)
-    unit = course.units[phone]
-    own = at(data, source, *take_bounds(data, unit))
-    splices = find_splices(data, course, pairs)
-    return _Drawn(blend(data, course, splices, times, own), unit, source, tuple(splices))
 
 
 def _spans(paths: Ints, spans: NDArray[np.floating]) -> Floats:
@@ -248,10 +235,7 @@ def _courses(
         tuple([data.labels[label] for label in data.label[units]] if phones is None else phones)
         for units in paths
     ]
-    every = np.tile(spans, (len(paths), 1))
-    said = [label for labels in spoken for label in labels]
-    warps = _warps(data, paths.ravel(), every, said, features)
-    each = warps.reshape(*paths.shape, -1)
+    each = _warps(data, paths, spans, spoken, features)
     return [
         Course(units, spans, labels, warp)
         for units, labels, warp in zip(paths, spoken, each, strict=True)
@@ -260,28 +244,28 @@ def _courses(
 
 def _warps(
     data: Recorded,
-    units: Ints,
+    paths: Ints,
     spans: Floats,
-    spoken: Sequence[str],
+    spoken: Sequence[Sequence[str]],
     features: Features | None,
 ) -> Floats:
-    """Warp of each phone, (N, KNOTS); a silence has nothing to go by and is even."""
-    found = warping.linear(len(units))
-    speech = np.array([label != SILENCE for label in spoken])
+    """Warp of each phone of each path, (M, N, KNOTS); a silence has nothing to go by: even."""
+    found = warping.linear(paths.size).reshape(*paths.shape, -1)
+    speech = np.array([[label != SILENCE for label in labels] for labels in spoken])
     if features is None or not speech.any():
         return found
-    heard = (spans[speech] - features.start) * features.rate
-    sides = []
-    for values, ends, count in (
-        (features.values, heard, warping.KNOTS),
-        (data.features, data.spans[units[speech]], 2 * warping.KNOTS - 1),
-    ):
-        share = np.linspace(0.0, 1.0, count)
-        positions = ends[:, :1] + share * np.diff(ends, axis=1) - 0.5
-        found_at = between(values, positions.ravel()) / data.sound_scale
-        sides.append(found_at.reshape(*positions.shape, -1))
-    found[speech] = warping.warps(*sides)
+    heard = _at_shares(features.values, (spans - features.start) * features.rate, warping.KNOTS)
+    wanted = np.broadcast_to(heard, (len(paths), *heard.shape))[speech]
+    units = data.spans[paths[speech]]
+    recorded = _at_shares(data.features, units, 2 * warping.KNOTS - 1)
+    found[speech] = warping.warps(wanted / data.sound_scale, recorded / data.sound_scale)
     return found
+
+
+def _at_shares(values: NDArray[np.floating], ends: NDArray[np.floating], count: int) -> Floats:
+    """Return frames at even shares of each span (N, 2), which counts in frames: (N, count, C)."""
+    positions = ends[:, :1] + np.linspace(0.0, 1.0, count) * np.diff(ends, axis=1) - 0.5
+    return between(values, positions.ravel()).reshape(*positions.shape, -1)
 
 
 def _sources(data: Recorded, course: Course, times: Floats) -> tuple[Ints, Floats]:

@@ -130,26 +130,41 @@ def find_splices(data: Recorded, course: Course, pairs: Pairs) -> list[Splice]:
 
 
 def blend(
-    data: Recorded, course: Course, splices: list[Splice], times: Floats, own: Floats
+    data: Recorded,
+    courses: Sequence[Course],
+    splices: Sequence[Sequence[Splice]],
+    times: Floats,
+    own: Floats,
 ) -> Floats:
-    """Return frames in which the units go over into one another.
+    """Return frames in which the units of each course go over into one another.
 
     Parameters
     ----------
     data : Recorded
-    course : Course
-    splices : list of Splice
+    courses : sequence of Course
+        M of them.
+    splices : sequence of sequence of Splice
+        Of each course.
     times : (T,) float64
         Seconds of the frames.
-    own : (T, K) float64
+    own : (M, T, K) float64
         Each frame as its own unit has it.
     """
-    if not splices:
+    spliced = [number for number, some in enumerate(splices) if some]
+    if not spliced:
         return own
-    sides = [_side(data, course, splices, times, behind) for behind in (0, 1)]
-    at_all = (np.concatenate([getattr(side, name) for side in sides]) for name in _PLACES)
-    other = at(data, *at_all)
-    return _mixed(own, sides, (other[: len(sides[0].rows)], other[len(sides[0].rows) :]))
+    sides = [
+        [_side(data, courses[number], splices[number], times, behind) for behind in (0, 1)]
+        for number in spliced
+    ]
+    flat = [side for both in sides for side in both]
+    # Frames of all courses at once: each look-up costs more than what it looks up.
+    other = at(data, *(np.concatenate([getattr(side, name) for side in flat]) for name in _PLACES))
+    parts = iter(np.split(other, np.cumsum([len(side.rows) for side in flat])[:-1]))
+    mixed = own.copy()
+    for number, both in zip(spliced, sides, strict=True):
+        mixed[number] = _mixed(own[number], both, [next(parts), next(parts)])
+    return mixed
 
 
 _PLACES = ("positions", "low", "high")
@@ -167,7 +182,7 @@ class _Side:
 
 
 def _side(
-    data: Recorded, course: Course, splices: list[Splice], times: Floats, behind: int
+    data: Recorded, course: Course, splices: Sequence[Splice], times: Floats, behind: int
 ) -> _Side:
     """Return what all splices add to the frames before them (0), or behind them (1)."""
     seam = np.array([splice.time for splice in splices])
