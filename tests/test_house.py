@@ -20,7 +20,7 @@ LAYERS = [
     ("performance",),
     ("schedule", "engines", "character", "export", "evaluate"),
     ("casting",),
-    ("pipeline", "corpus", "motion_takes", "recorded"),
+    ("pipeline", "corpus", "motion_takes", "recorded", "recorded_database"),
     ("cli",),
 ]
 APART = ("schedule", "engines", "character", "export", "evaluate")

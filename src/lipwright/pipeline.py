@@ -364,14 +364,19 @@ def fit_set(
     """Return a bigram set fitted to a folder of recorded faces, and what it rests on.
 
     See :func:`lipwright.recorded.read_takes` for the folder and ``text``, and
-    :func:`lipwright.recorded.fit_set` for the rest. Reading counts as half of the progress.
+    :func:`lipwright.recorded.fit_set` for the rest. A motion database is as good as a folder
+    of recordings; it needs no ``text``. Reading counts as half of the progress.
     """
     from lipwright import recorded
+    from lipwright.recorded_database import database_takes, is_database
 
     def half(first: float) -> Progress | None:
         return (lambda share: progress(first + 0.5 * share)) if progress else None
 
-    takes = recorded.read_takes(folder, text=text, progress=half(0.0))
+    if is_database(folder):
+        takes = database_takes(folder, text)
+    else:
+        takes = recorded.read_takes(folder, text=text, progress=half(0.0))
     return recorded.fit_set(takes, base=base, name=name, as_scored=as_scored, progress=half(0.5))
 
 

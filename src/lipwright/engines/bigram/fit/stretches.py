@@ -134,6 +134,11 @@ class Pairs:
         return LEVELS * (row * len(self.labels) + column)
 
 
+def places(boundary: float) -> Floats:
+    """Where the five keys lie in a bigram whose boundary is there."""
+    return np.where(PLACES <= 0.5, 2 * PLACES * boundary, 1 - 2 * (1 - PLACES) * (1 - boundary))
+
+
 def stretches(
     takes: Sequence[FaceTake], base: BigramSet, pairs: Pairs, above: Sequence[str]
 ) -> list[Stretch]:
