@@ -22,7 +22,7 @@ from lipwright.timeline import Tier
 
 if TYPE_CHECKING:
     from lipwright.engines.bigram import BigramSet
-    from lipwright.engines.bigram.fit import FaceTake, FitReport
+    from lipwright.engines.bigram.fit import FitReport
     from lipwright.engines.motion.capture import TakeFiles
     from lipwright.speech import Speech
 
@@ -212,8 +212,16 @@ def fit_set(
             moves = straightened(evened(moves), way.channels)
         moves = [way.weights(moved) for moved in moves]
         poses, alike = way.poses, way.alike
-    faces: list[FaceTake] = [
-        FaceTake(take.name, poses, np.clip(moved, 0.0, 1.0), take.rate, take.start, take.phones)
+    faces = [
+        FaceTake(
+            take.name,
+            poses,
+            np.clip(moved, 0.0, 1.0),
+            take.rate,
+            take.start,
+            take.phones,
+            take.words,
+        )
         for take, moved in zip(takes, moves, strict=True)
     ]
     return fit_set(faces, of, name, alike=alike, progress=progress)

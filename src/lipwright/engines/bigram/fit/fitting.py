@@ -1,9 +1,10 @@
 """A bigram set learnt from recorded faces: the outlook of Xu et al. 2013 (DESIGN section 5).
 
-Recipe: takes on a fine clock, poses one after the other (how soft; how strong, and what
-each phone does; the levels of pairs), and the result drawn as keys. The poses that a class must reach, its
-closures, stay the base set's: a camera of 25 frames per second misses half of them, and a
-set promises them all. So do poses that the takes do not show, such as the tongue's.
+Recipe: takes on a fine clock, poses one after the other (how soft; what phones do, and how
+far they may leave the base; the levels of pairs), and the result drawn as keys. The poses
+that a class must reach, its closures, stay the base set's: a camera of 25 frames per second
+misses half of them, and a set promises them all. So do poses that the takes do not show,
+such as the tongue's.
 """
 
 from __future__ import annotations
@@ -16,7 +17,8 @@ import numpy as np
 
 from lipwright.engines.bigram.fit.drawing import draw_pair, draw_phone
 from lipwright.engines.bigram.fit.levels import Found, Problem, Room, solve_causes, solve_levels
-from lipwright.engines.bigram.fit.prior import phones_of, prior
+from lipwright.engines.bigram.fit.prior import Prior, phones_of, prior
+from lipwright.engines.bigram.fit.strength import with_strength
 from lipwright.engines.bigram.fit.stretches import LEVELS, Floats, Ints, Pairs, Stretch, stretches
 from lipwright.engines.bigram.fit.takes import FaceTake, check_takes
 from lipwright.engines.bigram.model import Bigram, BigramSet, Pair, Rules
@@ -67,7 +69,6 @@ def fit_set(
     name: str = "fitted",
     *,
     alike: Floats | None = None,
-    strength: tuple[float, float, float] | None = None,
     progress: Progress | None = None,
 ) -> tuple[BigramSet, FitReport]:
     """Fit a set to recorded faces.
@@ -84,9 +85,6 @@ def fit_set(
         How alike the takes' poses look on the character: the products of their
         displacements. What one pose cannot follow, those fitted after it make good as far as
         they share it.
-    strength : tuple of three float, optional
-        How strongly pairs, phones and gains are pulled to what is expected; see
-        :mod:`~lipwright.engines.bigram.fit.prior`.
     progress : function, optional
         Called with the share that is done, 0..1.
 
@@ -116,7 +114,7 @@ def fit_set(
         )
     above = [pose for pose in base.rules.names if pose not in poses]
     cut = stretches(takes, base, pairs, above)
-    job = _Job(base, pairs, cut, _used(cut), above, takes[0].poses, _alike(takes[0], alike), strength)
+    job = _Job(base, pairs, cut, _used(cut), above, takes[0].poses, _alike(takes[0], alike))
     found: dict[str, Fit] = {}
     for number, pose in enumerate(poses):
         if progress is not None:
@@ -165,22 +163,29 @@ class _Job:
     above: list[str]
     seen: tuple[str, ...]
     alike: Floats
-    strength: tuple[float, float, float] | None
 
     def fit(self, pose: str, others: Mapping[str, Fit]) -> Fit:
         """Fit a pose, given how those before it came out."""
-        expected, room = prior(self.base, self.pairs, pose, self.strength), self._room(pose)
+        expected, room = prior(self.base, self.pairs, pose), self._room(pose)
         wanted = self._wanted(pose, others)
+        begin, half = self._begun(expected, wanted, room)
+        problem = Problem(self.cut, wanted, room, half)
+        chosen = with_strength(problem, expected, self.used, begin.levels)
+        if not np.array_equal(chosen.strength, expected.strength):
+            begin, half = self._begun(chosen, wanted, room)
+            problem = Problem(self.cut, wanted, room, half)
+        found = solve_levels(problem, chosen, self.used, begin)
+        return Fit(half, found, problem.made(found.levels))
+
+    def _begun(self, expected: Prior, wanted: Sequence[Floats], room: Room) -> tuple[Found, float]:
+        """Fit gain and phones alone, on some of the takes; and find how soft the pose moves."""
         every = max(1, len(self.cut) // ENOUGH)
         some, few = self.cut[::every], wanted[::every]
         tried = [
             (solve_causes(Problem(some, few, room, half), expected, self.used), half)
             for half in SOFTNESSES
         ]
-        begin, half = min(tried, key=lambda one: one[0].rms)
-        problem = Problem(self.cut, wanted, room, half)
-        found = solve_levels(problem, expected, self.used, begin)
-        return Fit(half, found, problem.made(found.levels))
+        return min(tried, key=lambda one: one[0].rms)
 
     def _wanted(self, pose: str, others: Mapping[str, Fit]) -> list[Floats]:
         """What is wanted of a pose where the others miss what was recorded of them.

@@ -62,7 +62,7 @@ class Problem:
         place[keys] = np.arange(len(keys))
         squares, products = np.zeros((len(keys), len(keys))), np.zeros(len(keys))
         rows = [
-            self._rows(stretch, wanted, levels)
+            self.rows(stretch, wanted, levels)
             for stretch, wanted in zip(self.stretches, self.wanted, strict=True)
         ]
         left = np.concatenate([found[2] for found in rows])
@@ -75,7 +75,7 @@ class Problem:
             products[own] += weighed.T @ wanted
         return squares, products, usual
 
-    def _rows(
+    def rows(
         self, stretch: Stretch, frames: Floats, levels: Floats
     ) -> tuple[Floats, Floats, Floats]:
         """How frames depend on the levels, what is wanted of them, and how far off it is."""
@@ -136,7 +136,7 @@ def solve_causes(problem: Problem, expected: Prior, keys: Ints) -> Found:
         squares, products, rms = problem.evidence(expected.levels(causes), keys)
         squares = matrix.T @ squares @ matrix + np.diag(expected.strength)
         products = matrix.T @ products + expected.strength * expected.centre
-        causes = np.linalg.solve(squares, products)
+        causes = np.asarray(np.linalg.solve(squares, products), dtype=np.float64)
     return Found(expected.levels(causes), causes, rms)
 
 
@@ -157,7 +157,7 @@ def solve_levels(problem: Problem, expected: Prior, keys: Ints, start: Found) ->
     best: tuple[float, Found] | None = None
     frames = sum(len(stretch.frames) for stretch in problem.stretches)
     bounded = np.arange(count + len(causes)) < count
-    pulled = _pulled(expected, matrix)
+    pull = pulled(expected, matrix)
     for _ in range(ROUNDS):
         squares, products, rms = problem.evidence(levels, keys)
         apart, off = levels[keys] - matrix @ causes, causes - expected.centre
@@ -165,7 +165,7 @@ def solve_levels(problem: Problem, expected: Prior, keys: Ints, start: Found) ->
         cost += float(off @ (expected.strength * off))
         if best is None or cost < best[0]:
             best = cost, Found(levels.copy(), causes.copy(), rms)
-        system = pulled.copy()
+        system = pull.copy()
         system[:count, :count] += squares
         target = np.concatenate((products, expected.strength * expected.centre))
         now = np.concatenate((levels[keys], causes))
@@ -177,8 +177,15 @@ def solve_levels(problem: Problem, expected: Prior, keys: Ints, start: Found) ->
     return best[1]
 
 
-def _pulled(expected: Prior, matrix: Floats) -> Floats:
-    """The part of the normal equations that pulls levels to causes, and causes to the centre."""
+def pulled(expected: Prior, matrix: Floats) -> Floats:
+    """Return what pulls levels to causes, and causes to their centre, (K + Q, K + Q).
+
+    Parameters
+    ----------
+    expected : Prior
+    matrix : (K, Q) float64
+        Its rows for the levels that are sought.
+    """
     pull = expected.pair
     corner = pull * matrix.T @ matrix + np.diag(expected.strength)
     return np.block([[pull * np.eye(len(matrix)), -pull * matrix], [-pull * matrix.T, corner]])

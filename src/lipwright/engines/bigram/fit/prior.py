@@ -49,27 +49,14 @@ class Prior:
         return np.clip(self.matrix @ causes, 0.0, 1.0)
 
 
-def prior(
-    base: BigramSet, pairs: Pairs, pose: str, strength: tuple[float, float, float] | None = None
-) -> Prior:
-    """Return what is expected of one pose.
-
-    Parameters
-    ----------
-    base : BigramSet
-    pairs : Pairs
-    pose : str
-    strength : tuple of three float, optional
-        Instead of :data:`PAIR`, :data:`PHONE` and :data:`GAIN`.
-    """
-    pair, phone, gain = strength or (PAIR, PHONE, GAIN)
+def prior(base: BigramSet, pairs: Pairs, pose: str) -> Prior:
+    """Return what is expected of one pose."""
     spread = phones_to_levels(len(pairs.labels))
     own = spread.shape[1]
     return Prior(
         np.column_stack((levels_of(base, pairs, pose), spread)),
         np.concatenate(([1.0], np.zeros(own))),
-        np.concatenate(([gain], np.full(own, phone))),
-        pair,
+        np.concatenate(([GAIN], np.full(own, PHONE))),
     )
 
 
