@@ -21,7 +21,7 @@ LAYERS = [
     ("schedule", "engines", "character", "export", "evaluate"),
     ("casting", "marker_faces", "told_in_poses"),
     ("acting",),
-    ("pipeline", "corpus", "marker_takes", "motion_takes", "recorded"),
+    ("pipeline", "corpus", "marker_takes", "motion_takes", "recorded", "recorded_database"),
     ("cli",),
 ]
 APART = ("schedule", "engines", "character", "export", "evaluate")

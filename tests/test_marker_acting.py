@@ -85,6 +85,17 @@ def test_where_markers_lie_is_a_file_to_edit(
     assert (tmp_path / "a.glb").read_bytes() != (tmp_path / "b.glb").read_bytes()
 
 
+def test_a_set_is_fitted_to_markers(database: Path, tmp_path: Path) -> None:
+    target = tmp_path / "mine.json"
+    assert main(["set", "fit", str(database), "-o", str(target)]) == 0
+    speech = pipeline.say("We saw five blue boats on the water.")
+    mine = pipeline.animate(speech, bigram_set=target, rate=RATE).animation
+    drawn = pipeline.animate(speech, rate=RATE).animation
+    for pose in ("open", "W"):  # what moved the markers, found again
+        there = np.interp(mine.times, drawn.times, drawn.control(pose))
+        assert np.corrcoef(there, mine.control(pose))[0, 1] > 0.7, pose
+
+
 BAD = {
     "a marker file for shapes": (
         ["say", LINE, "--engine", "motion", "--markers", "x.json", "-o", "a.glb"],

@@ -12,7 +12,7 @@ from lipwright.cli import main
 from lipwright.engines.bigram import load_set
 from lipwright.errors import InputError
 from lipwright.phones import PhoneTrack
-from lipwright.recorded import Recorded, evened, fit_set, read_takes
+from lipwright.recorded import Recorded, evened, fit_set, read_takes, straightened
 from lipwright.timeline import Tier
 
 LABELS = "0 6000000 sil\n6000000 9000000 m\n9000000 13000000 aa\n13000000 18000000 sil\n"
@@ -78,6 +78,15 @@ def test_only_weak_shapes_are_brought_up() -> None:
     assert high[0] == 0.9
     assert high[1] == pytest.approx(0.3, abs=0.01)
     assert high[2] == pytest.approx(0.004)
+
+
+def test_small_scores_of_the_lips_are_raised_and_those_of_the_jaw_are_not() -> None:
+    values = np.tile(np.linspace(-1, 1, 201)[:, None], (1, 2)) * 0.4
+    (found,) = straightened([values], ("jawOpen", "mouthPucker"))
+    assert np.allclose(found[:, 0], values[:, 0])
+    assert found[120, 1] > 1.5 * values[120, 1] > 0
+    assert np.allclose(found[:, 1], -found[::-1, 1])
+    assert found[-1, 1] == pytest.approx(0.4, rel=0.02)
 
 
 def without_time(folder: Path) -> None:

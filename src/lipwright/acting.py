@@ -198,11 +198,11 @@ def _by_markers(database: Database, how: Acting, poses: tuple[str, ...]) -> Tell
     if not is_pictures(how.character):
         try:
             actor = keep_character(how.character, how.mapping)
-            return _telling(database, actor, poses, *_file(how))
+            return marker_telling(database, actor, poses, *_file(how))
         except CharacterError:
             if how.markers is not None:
                 raise
-    return _telling(database, keep_character("head"), poses, "", None)
+    return marker_telling(database, keep_character("head"), poses, "", None)
 
 
 def _file(how: Acting) -> tuple[str, object]:
@@ -219,9 +219,22 @@ def _marker_face(database: Database, actor: Character, file: str, version: objec
 
 
 @lru_cache(maxsize=4)
-def _telling(
+def marker_telling(
     database: Database, actor: Character, poses: tuple[str, ...], file: str, version: object
 ) -> Telling:
+    """Return how a database's markers are told in poses of a character; kept.
+
+    Parameters
+    ----------
+    database : Database
+        Of markers.
+    actor : Character
+    poses : tuple of str
+    file : str
+        A marker file; nothing where there is none.
+    version : object
+        What tells the states of that file apart.
+    """
     from lipwright.marker_faces import bind, by_markers, read_face_mesh, read_marker_file
     from lipwright.told_in_poses import rest_of
 

@@ -219,8 +219,7 @@ def animate(
     controls : str, optional
         What the motion engine gives: ``"recorded"``, the takes' own channels, or ``"poses"``,
         those of the set; what the character can play, where it is not given.
-    markers : path, optional
-        Where a database's markers lie on the character.
+    markers : path, optional: where a database's markers lie on the character.
     pictures : str or path, optional
         The mouth shapes that formats of held shapes use for a character with a model;
         ``"rhubarb"`` where none are given.
@@ -262,8 +261,8 @@ def animate(
         notes += filter(None, [_check(actor, animation.controls)])
     named = replace(animation, report={**animation.report, "character": actor.report()})
     told = replace(speech, notes=(*notes, *actor.notes(animation.controls, speech)))
-    rig, curves = acted.rig or partial(actor.rig, named), acted.told if acted.rig else None
-    return Performance(named, told, rig, cues, curves=curves)
+    rig = acted.rig or partial(actor.rig, named)
+    return Performance(named, told, rig, cues, curves=acted.told if acted.rig else None)
 
 
 @lru_cache(maxsize=8)
@@ -378,17 +377,18 @@ def fit_set(
     as_scored: bool = False,
     progress: Progress | None = None,
 ) -> tuple[BigramSet, FitReport]:
-    """Return a bigram set fitted to a folder of recorded faces, and what it rests on.
+    """Return a bigram set fitted to recorded faces, and what it rests on.
 
-    See :func:`lipwright.recorded.read_takes` for the folder and ``text``, and
-    :func:`lipwright.recorded.fit_set` for the rest. Reading counts as half of the progress.
+    See :func:`lipwright.recorded_database.takes_to_fit` for the folder and ``text``, and
+    :func:`lipwright.recorded.fit_set` for the rest.
     """
     from lipwright import recorded
+    from lipwright.recorded_database import takes_to_fit
 
     def half(first: float) -> Progress | None:
-        return (lambda share: progress(first + 0.5 * share)) if progress else None
+        return (lambda share: progress(first + share / 2)) if progress else None
 
-    takes = recorded.read_takes(folder, text=text, progress=half(0.0))
+    takes = takes_to_fit(folder, text, base, half(0.0))
     return recorded.fit_set(takes, base=base, name=name, as_scored=as_scored, progress=half(0.5))
 
 

@@ -22,7 +22,7 @@ from lipwright.timeline import Tier
 
 if TYPE_CHECKING:
     from lipwright.engines.bigram import BigramSet
-    from lipwright.engines.bigram.fit import FaceTake, FitReport
+    from lipwright.engines.bigram.fit import FitReport
     from lipwright.engines.motion.capture import CleaningReport, RestFace, TakeFiles
     from lipwright.speech import Speech
 
@@ -35,6 +35,8 @@ SETTLED = 0.2
 """Seconds next to speech in which a face moves already, or still."""
 EVEN, MOST = 0.3, 4.0
 """What each shape is brought up to, and how many times at most; see :func:`evened`."""
+STRAIGHT = 0.6
+"""The power that scores of the lips are raised to; see :func:`straightened`."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -45,7 +47,7 @@ class Recorded:
     ----------
     name : str
     channels : tuple of str
-        ARKit's names; or coordinates of markers, see
+        ARKit's names, those of a set's poses, or coordinates of markers, see
         :mod:`lipwright.markers`.
     values : (T, C) float
         Frame ``k`` holds what is seen at ``start + (k + 0.5) / rate``.
@@ -195,7 +197,7 @@ def fit_set(
     name : str
         Of the new set.
     as_scored : bool
-        Whether scores are used as they are; else see :func:`evened`.
+        Whether scores are used as they are; else see :func:`evened` and :func:`straightened`.
     progress : function, optional
         Called with the share that is done, 0..1.
 
@@ -219,16 +221,30 @@ def fit_set(
             raise InputError(
                 "has other channels", where=take.name, expected=f"those of {takes[0].name}"
             )
-    way = unmixing(channels, of.rules.names)
-    columns = [channels.index(channel) for channel in way.channels]
-    moves = [_from_rest(take)[:, columns] for take in takes]
-    if not as_scored:
-        moves = evened(moves)
-    faces: list[FaceTake] = [
-        FaceTake(take.name, way.poses, way.weights(moved), take.rate, take.start, take.phones)
+    moves = [_from_rest(take) for take in takes]
+    poses, alike = channels, None
+    # Poses are what a set is made of already: they are fitted as they are.
+    if not set(channels) <= set(of.rules.names):
+        way = unmixing(channels, of.rules.names)
+        columns = [channels.index(channel) for channel in way.channels]
+        moves = [moved[:, columns] for moved in moves]
+        if not as_scored:
+            moves = straightened(evened(moves), way.channels)
+        moves = [way.weights(moved) for moved in moves]
+        poses, alike = way.poses, way.alike
+    faces = [
+        FaceTake(
+            take.name,
+            poses,
+            np.clip(moved, 0.0, 1.0),
+            take.rate,
+            take.start,
+            take.phones,
+            take.words,
+        )
         for take, moved in zip(takes, moves, strict=True)
     ]
-    return fit_set(faces, of, name, alike=way.alike, progress=progress)
+    return fit_set(faces, of, name, alike=alike, progress=progress)
 
 
 def evened(takes: Sequence[Floats]) -> list[Floats]:
@@ -246,6 +262,27 @@ def evened(takes: Sequence[Floats]) -> list[Floats]:
     high = np.percentile(np.concatenate(takes), 99, axis=0)
     gains = np.clip(EVEN / np.maximum(high, 1e-9), 1.0, MOST)
     return [values * gains for values in takes]
+
+
+def straightened(takes: Sequence[Floats], channels: Sequence[str]) -> list[Floats]:
+    """Make scores of the lips' shapes proportional to what lips do.
+
+    Trackers score a small movement of the lips as next to nothing and a large one in full;
+    the jaw's scores are straight. What a shape shows is raised to the power of 0.6 of its
+    own range, the 99th percentile over all takes; that range stays as it is.
+
+    Parameters
+    ----------
+    takes : sequence of (T, C) float64
+        From rest.
+    channels : sequence of str
+        Those whose names begin with ``mouth`` are of the lips.
+    """
+    lips = np.array([channel.startswith("mouth") for channel in channels])
+    high = np.percentile(np.abs(np.concatenate(takes)), 99, axis=0)
+    high = np.maximum(high, 1e-9)
+    power = np.where(lips, STRAIGHT, 1.0)
+    return [np.sign(values) * high * (np.abs(values) / high) ** power for values in takes]
 
 
 def _from_rest(take: Recorded) -> Floats:

@@ -21,9 +21,12 @@ from lipwright.errors import CharacterError
 
 Floats = NDArray[np.float64]
 
+ACROSS = 2.0
+"""How much what moves sideways counts. Lips go up and down by far more than from corner to
+corner, and the eye sees both: else how round a mouth is would be drowned by how open it is."""
 SEEN = 1e-3
 """A shape that moves nothing there by as much is not seen, metres."""
-FIRM = 1e-4
+FIRM = 5e-5
 """Keeps poses that look alike apart: a share of the poses' mean square."""
 CLOSE = 1e-6
 SWEEPS = 5000
@@ -152,4 +155,6 @@ def _seen(skin: Part, line: NDArray[np.intp], names: Sequence[str]) -> tuple[str
 
 
 def _moves(skin: Part, vertices: NDArray[np.intp], names: Sequence[str]) -> Floats:
-    return np.stack([skin.morphs[name][vertices].ravel() for name in names]).astype(np.float64)
+    moves = np.stack([skin.morphs[name][vertices] for name in names]).astype(np.float64)
+    moves[:, :, 0] *= ACROSS
+    return moves.reshape(len(names), -1)

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     help="Gives the rules, the closures, and what no take shows.",
 )  # fmt: skip
 @click.option("--name", metavar="NAME", help="The new set's name; else the file's.")
-@click.option("--as-scored", is_flag=True, help="Do not bring up shapes that a tracker scores low.")
+@click.option("--as-scored", is_flag=True, help="Take scores as they are: do not mend a tracker's.")
 @options.as_json
 def fit(
     takes: Path,
@@ -43,7 +43,7 @@ def fit(
     """Learn the curves of a set from recorded faces.
 
     TAKES is a folder of tables of ARKit's shapes over time, each with its sound and words or
-    its labels beside it by name.
+    its labels beside it by name; or a motion database.
     """
     from lipwright.engines.bigram.set_file import set_bytes
     from lipwright.files import check_target, write_atomically

@@ -1,4 +1,4 @@
-"""From levels to what an artist draws: keys of pairs, and of single phones; and back."""
+"""From levels to what an artist draws: keys of pairs, and of single phones."""
 
 from __future__ import annotations
 
@@ -7,38 +7,15 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from lipwright.curves import Keys
-from lipwright.engines.bigram.fit.stretches import LEVELS, PLACES, Floats, Pairs
+from lipwright.engines.bigram.fit.stretches import Floats, places
 from lipwright.engines.bigram.model import Bigram, BigramSet, Curves, Pair
 from lipwright.engines.bigram.stand_in import stand_in
-from lipwright.phones import SILENCE
 
 LEAST = 0.02
 """A curve that stays below this is not drawn."""
 STRAIGHT = 0.004
 """A key this close to the line of its neighbours is not drawn."""
 PLACES_OF_PHONE = (-0.5, 0.0, 0.5, 1.0, 1.5)
-
-
-def phones_of(base: BigramSet, pairs: Pairs, pose: str) -> Floats:
-    """Return the phones' own levels in a set, as the mean over all their pairs, (3 * C,)."""
-    count = len(pairs.labels)
-    levels = np.zeros((count, count, LEVELS))
-    for row, first in enumerate(pairs.labels):
-        for column, second in enumerate(pairs.labels):
-            if (first, second) != (SILENCE, SILENCE):
-                bigram = base.bigrams.get((first, second)) or stand_in(base, (first, second))
-                keys = bigram.curves.get(pose)
-                if keys is not None:
-                    levels[row, column] = keys.at(_places(bigram.boundary)[1:-1])
-    begins = levels[:, :, 1].mean(axis=0)
-    middle = np.concatenate((levels[:, :, 0], levels[:, :, 2].T), axis=1).mean(axis=1)
-    ends = levels[:, :, 1].mean(axis=1)
-    return np.stack((begins, middle, ends), axis=1).ravel()
-
-
-def _places(boundary: float) -> Floats:
-    """Where the keys lie in a bigram whose boundary is there."""
-    return np.where(PLACES <= 0.5, 2 * PLACES * boundary, 1 - 2 * (1 - PLACES) * (1 - boundary))
 
 
 def draw_pair(base: BigramSet, pair: Pair, levels: Mapping[str, Floats], name: str) -> Bigram:
@@ -61,7 +38,7 @@ def draw_pair(base: BigramSet, pair: Pair, levels: Mapping[str, Floats], name: s
                 drawn[pose] = old.curves[pose]
         elif levels[pose].max() >= LEAST:
             values = np.concatenate(([0.0], levels[pose], [0.0]))
-            drawn[pose] = few_keys(_places(old.boundary), values)
+            drawn[pose] = few_keys(places(old.boundary), values)
     return Bigram(pair, drawn, old.boundary, old.word, name)
 
 

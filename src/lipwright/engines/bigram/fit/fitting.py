@@ -1,9 +1,10 @@
 """A bigram set learnt from recorded faces: the outlook of Xu et al. 2013 (DESIGN section 5).
 
-Recipe: takes on a fine clock, poses one after the other (how soft; the levels of phones;
-the levels of pairs), and the result drawn as keys. The poses that a class must reach, its
-closures, stay the base set's: a camera of 25 frames per second misses half of them, and a
-set promises them all. So do poses that the takes do not show, such as the tongue's.
+Recipe: takes on a fine clock, poses one after the other (how soft; what phones do, and how
+far they may leave the base; the levels of pairs), and the result drawn as keys. The poses
+that a class must reach, its closures, stay the base set's: a camera of 25 frames per second
+misses half of them, and a set promises them all. So do poses that the takes do not show,
+such as the tongue's.
 """
 
 from __future__ import annotations
@@ -14,15 +15,10 @@ from dataclasses import dataclass, replace
 import msgspec
 import numpy as np
 
-from lipwright.engines.bigram.fit.drawing import draw_pair, draw_phone, phones_of
-from lipwright.engines.bigram.fit.levels import (
-    Found,
-    Problem,
-    Room,
-    phones_to_levels,
-    solve_levels,
-    solve_phones,
-)
+from lipwright.engines.bigram.fit.drawing import draw_pair, draw_phone
+from lipwright.engines.bigram.fit.levels import Found, Problem, Room, solve_causes, solve_levels
+from lipwright.engines.bigram.fit.prior import Prior, phones_of, prior
+from lipwright.engines.bigram.fit.strength import with_strength
 from lipwright.engines.bigram.fit.stretches import LEVELS, Floats, Ints, Pairs, Stretch, stretches
 from lipwright.engines.bigram.fit.takes import FaceTake, check_takes
 from lipwright.engines.bigram.model import Bigram, BigramSet, Pair, Rules
@@ -33,7 +29,6 @@ Progress = Callable[[float], None]
 
 SOFTNESSES = (0.03, 0.05, 0.07, 0.09, 0.11, 0.14)
 """What is tried, half-widths in seconds."""
-PASSES = 2
 ENOUGH = 120
 """Stretches that are looked at to choose among them."""
 
@@ -88,7 +83,8 @@ def fit_set(
         Of the new set.
     alike : (P, P) float64, optional
         How alike the takes' poses look on the character: the products of their
-        displacements. Where one pose cannot follow, others make good what they share with it.
+        displacements. What one pose cannot follow, those fitted after it make good as far as
+        they share it.
     progress : function, optional
         Called with the share that is done, 0..1.
 
@@ -120,10 +116,9 @@ def fit_set(
     cut = stretches(takes, base, pairs, above)
     job = _Job(base, pairs, cut, _used(cut), above, takes[0].poses, _alike(takes[0], alike))
     found: dict[str, Fit] = {}
-    for number in range(PASSES * len(poses)):
+    for number, pose in enumerate(poses):
         if progress is not None:
-            progress((number + 0.1) / (PASSES * len(poses) + 0.2))
-        pose = poses[number % len(poses)]
+            progress((number + 0.1) / (len(poses) + 0.2))
         found[pose] = job.fit(pose, found)
     if progress is not None:
         progress(1.0)
@@ -152,7 +147,7 @@ def _alike(take: FaceTake, alike: Floats | None) -> Floats:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Fit:
-    """One pose as it is known after a pass."""
+    """One pose as it came out."""
 
     half: float
     found: Found
@@ -170,23 +165,27 @@ class _Job:
     alike: Floats
 
     def fit(self, pose: str, others: Mapping[str, Fit]) -> Fit:
-        """Fit a pose, given how the other poses came out."""
-        spread = phones_to_levels(len(self.pairs.labels))
-        start, room = phones_of(self.base, self.pairs, pose), self._room(pose)
+        """Fit a pose, given how those before it came out."""
+        expected, room = prior(self.base, self.pairs, pose), self._room(pose)
         wanted = self._wanted(pose, others)
-        if pose in others:
-            half, begin = others[pose].half, others[pose].found
-        else:
-            every = max(1, len(self.cut) // ENOUGH)
-            some, few = self.cut[::every], wanted[::every]
-            tried = [
-                (solve_phones(Problem(some, few, room, half), spread, self.used, start), half)
-                for half in SOFTNESSES
-            ]
-            begin, half = min(tried, key=lambda one: one[0].rms)
+        begin, half = self._begun(expected, wanted, room)
         problem = Problem(self.cut, wanted, room, half)
-        found = solve_levels(problem, spread, self.used, begin, start)
+        chosen = with_strength(problem, expected, self.used, begin.levels)
+        if not np.array_equal(chosen.strength, expected.strength):
+            begin, half = self._begun(chosen, wanted, room)
+            problem = Problem(self.cut, wanted, room, half)
+        found = solve_levels(problem, chosen, self.used, begin)
         return Fit(half, found, problem.made(found.levels))
+
+    def _begun(self, expected: Prior, wanted: Sequence[Floats], room: Room) -> tuple[Found, float]:
+        """Fit gain and phones alone, on some of the takes; and find how soft the pose moves."""
+        every = max(1, len(self.cut) // ENOUGH)
+        some, few = self.cut[::every], wanted[::every]
+        tried = [
+            (solve_causes(Problem(some, few, room, half), expected, self.used), half)
+            for half in SOFTNESSES
+        ]
+        return min(tried, key=lambda one: one[0].rms)
 
     def _wanted(self, pose: str, others: Mapping[str, Fit]) -> list[Floats]:
         """What is wanted of a pose where the others miss what was recorded of them.
@@ -202,7 +201,7 @@ class _Job:
             for other, name in enumerate(self.seen):
                 if name in self.above:
                     made = stretch.held[self.above.index(name)]
-                elif name in others and name != pose:
+                elif name in others:
                     made = others[name].made[number]
                 else:
                     continue
@@ -231,6 +230,7 @@ def _drawn(
     base, labels = job.base, job.pairs.labels
     found = {pose: fit.found for pose, fit in fits.items()}
     measured = {int(key) // LEVELS for key in job.used[::LEVELS]}
+    phones = {pose: phones_of(one.levels, len(labels)) for pose, one in found.items()}
     shown = {labels[n] for pair in measured for n in divmod(pair, len(labels))}
     bigrams: dict[Pair, Bigram] = {}
     counts = [0, 0, 0]
@@ -247,7 +247,7 @@ def _drawn(
     for number, label in enumerate(labels):
         if label in shown and label != SILENCE:
             own = slice(LEVELS * number, LEVELS * (number + 1))
-            levels = {pose: one.phones[own] for pose, one in found.items()}
+            levels = {pose: of[own] for pose, of in phones.items()}
             singles[label] = draw_phone(base, label, levels)
     minutes = sum(len(take.values) / take.rate for take in takes) / 60
     rms = {pose: round(one.rms, 4) for pose, one in found.items()}

@@ -5,8 +5,7 @@ curves, the larger of two bigrams at each instant, bounded and softened. Where i
 which bigram is the larger, that is linear in the levels; so bigrams are chosen, levels are
 solved, and again. Frames far from anything that curves can do count less (Huber 1964).
 
-A level is pulled towards what its phones do in all their pairs, and a phone's own levels
-faintly towards the base set's: what no take shows stays as it was.
+Levels are pulled towards what :mod:`~lipwright.engines.bigram.fit.prior` expects of them.
 """
 
 from __future__ import annotations
@@ -15,42 +14,18 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
-from lipwright.engines.bigram.fit.stretches import LEVELS, Floats, Ints, Stretch
+from lipwright.engines.bigram.fit.prior import Prior
+from lipwright.engines.bigram.fit.stretches import Floats, Ints, Stretch
 
-PULL = 3.0
-"""How many frames' evidence a level's phones are worth."""
-FAINT = 0.1
-"""The same of the base set."""
-ROUNDS = 7
+ROUNDS = 5
 STEP = 0.7
 FAR = 3.0
 """Frames that differ by more than this many times the usual count less."""
 
+Bools = NDArray[np.bool_]
 Room = tuple[tuple[int, float], ...]
-
-
-def phones_to_levels(count: int) -> Floats:
-    """Return the matrix from phones' own levels to those of all pairs.
-
-    Parameters
-    ----------
-    count : int
-        How many classes there are.
-
-    Returns
-    -------
-    (3 * count^2, 3 * count) float64
-        A phone's levels are those where it begins, in its middle, and where it ends; at a
-        boundary two phones have equal say.
-    """
-    made = np.zeros((count, count, LEVELS, count, LEVELS))
-    for one in range(count):
-        made[one, :, 0, one, 1] = 1.0
-        made[one, :, 1, one, 2] = 0.5
-        made[:, one, 2, one, 1] = 1.0
-        made[:, one, 1, one, 0] += 0.5
-    return made.reshape(LEVELS * count * count, LEVELS * count)
 
 
 @dataclass(slots=True, eq=False)
@@ -87,7 +62,7 @@ class Problem:
         place[keys] = np.arange(len(keys))
         squares, products = np.zeros((len(keys), len(keys))), np.zeros(len(keys))
         rows = [
-            self._rows(stretch, wanted, levels)
+            self.rows(stretch, wanted, levels)
             for stretch, wanted in zip(self.stretches, self.wanted, strict=True)
         ]
         left = np.concatenate([found[2] for found in rows])
@@ -100,7 +75,7 @@ class Problem:
             products[own] += weighed.T @ wanted
         return squares, products, usual
 
-    def _rows(
+    def rows(
         self, stretch: Stretch, frames: Floats, levels: Floats
     ) -> tuple[Floats, Floats, Floats]:
         """How frames depend on the levels, what is wanted of them, and how far off it is."""
@@ -143,69 +118,83 @@ class Found:
     ----------
     levels : (N,) float64
         Of all pairs.
-    phones : (P,) float64
-        The phones' own.
+    causes : (Q,) float64
+        What they are pulled towards: the base set's gain, and each phone's deviations.
     rms : float
         Of the difference that remains, in weights.
     """
 
     levels: Floats
-    phones: Floats
+    causes: Floats
     rms: float
 
 
-def solve_phones(problem: Problem, spread: Floats, keys: Ints, base: Floats) -> Found:
-    """Fit phones' own levels alone: every pair is what its two phones are."""
-    phones, matrix, rms = base.copy(), spread[keys], 0.0
+def solve_causes(problem: Problem, expected: Prior, keys: Ints) -> Found:
+    """Fit gain and phones alone: every pair is what they make of it."""
+    causes, matrix, rms = expected.centre.copy(), expected.matrix[keys], 0.0
     for _ in range(3):
-        squares, products, rms = problem.evidence(spread @ phones, keys)
-        squares = matrix.T @ squares @ matrix + FAINT * np.eye(len(base))
-        phones = in_range(squares, matrix.T @ products + FAINT * base, phones)
-    return Found(spread @ phones, phones, rms)
+        squares, products, rms = problem.evidence(expected.levels(causes), keys)
+        squares = matrix.T @ squares @ matrix + np.diag(expected.strength)
+        products = matrix.T @ products + expected.strength * expected.centre
+        causes = np.asarray(np.linalg.solve(squares, products), dtype=np.float64)
+    return Found(expected.levels(causes), causes, rms)
 
 
-def solve_levels(problem: Problem, spread: Floats, keys: Ints, start: Found, base: Floats) -> Found:
-    """Fit the levels of the pairs and of their phones together.
+def solve_levels(problem: Problem, expected: Prior, keys: Ints, start: Found) -> Found:
+    """Fit the levels of the pairs together with gain and phones.
 
     Parameters
     ----------
     problem : Problem
-    spread : (N, P) float64
-        From :func:`phones_to_levels`.
+    expected : Prior
     keys : (K,) int
         Levels that the takes show.
     start : Found
         Where to begin.
-    base : (P,) float64
-        The phones' levels in the base set.
     """
-    count, own = len(keys), spread[keys]
-    levels, phones = start.levels.copy(), start.phones.copy()
+    count, matrix = len(keys), expected.matrix[keys]
+    levels, causes = start.levels.copy(), start.causes.copy()
     best: tuple[float, Found] | None = None
     frames = sum(len(stretch.frames) for stretch in problem.stretches)
+    bounded = np.arange(count + len(causes)) < count
+    pull = pulled(expected, matrix)
     for _ in range(ROUNDS):
         squares, products, rms = problem.evidence(levels, keys)
-        apart = levels[keys] - own @ phones
-        cost = frames * rms**2 + PULL * float(apart @ apart)
+        apart, off = levels[keys] - matrix @ causes, causes - expected.centre
+        cost = frames * rms**2 + expected.pair * float(apart @ apart)
+        cost += float(off @ (expected.strength * off))
         if best is None or cost < best[0]:
-            best = cost, Found(levels.copy(), phones.copy(), rms)
-        system = np.zeros((count + len(base), count + len(base)))
-        system[:count, :count] = squares + PULL * np.eye(count)
-        system[:count, count:] = -PULL * own
-        system[count:, :count] = -PULL * own.T
-        system[count:, count:] = PULL * own.T @ own + FAINT * np.eye(len(base))
-        target = np.concatenate((products, FAINT * base))
-        now = np.concatenate((levels[keys], phones))
-        moved = now + STEP * (in_range(system, target, now) - now)
-        phones = moved[count:]
-        levels = spread @ phones
+            best = cost, Found(levels.copy(), causes.copy(), rms)
+        system = pull.copy()
+        system[:count, :count] += squares
+        target = np.concatenate((products, expected.strength * expected.centre))
+        now = np.concatenate((levels[keys], causes))
+        moved = now + STEP * (in_range(system, target, now, bounded) - now)
+        causes = moved[count:]
+        levels = expected.levels(causes)
         levels[keys] = moved[:count]
     assert best is not None
     return best[1]
 
 
-def in_range(squares: Floats, products: Floats, start: Floats, rounds: int = 6) -> Floats:
-    """Minimise ``x' A x / 2 - b' x`` with every x in 0..1, by an active set.
+def pulled(expected: Prior, matrix: Floats) -> Floats:
+    """Return what pulls levels to causes, and causes to their centre, (K + Q, K + Q).
+
+    Parameters
+    ----------
+    expected : Prior
+    matrix : (K, Q) float64
+        Its rows for the levels that are sought.
+    """
+    pull = expected.pair
+    corner = pull * matrix.T @ matrix + np.diag(expected.strength)
+    return np.block([[pull * np.eye(len(matrix)), -pull * matrix], [-pull * matrix.T, corner]])
+
+
+def in_range(
+    squares: Floats, products: Floats, start: Floats, bounded: Bools, rounds: int = 6
+) -> Floats:
+    """Minimise ``x' A x / 2 - b' x`` with some x in 0..1, by an active set.
 
     Parameters
     ----------
@@ -215,19 +204,21 @@ def in_range(squares: Floats, products: Floats, start: Floats, rounds: int = 6) 
         b.
     start : (N,) float64
         What lies at an end of the range is held there until it pulls away from it.
+    bounded : (N,) bool
+        Which x must lie in 0..1.
     rounds : int
         At most.
     """
     x = start.copy()
-    free = (x > 0) & (x < 1)
+    free = ~bounded | ((x > 0) & (x < 1))
     for _ in range(rounds):
         pull = products - squares @ x
         free |= ((x <= 0) & (pull > 0)) | ((x >= 1) & (pull < 0))
         held = ~free
         rest = products[free] - squares[np.ix_(free, held)] @ x[held]
         x[free] = np.linalg.solve(squares[np.ix_(free, free)], rest)
-        outside = (x < 0) | (x > 1)
-        x = np.clip(x, 0.0, 1.0)
+        outside = bounded & ((x < 0) | (x > 1))
+        x[bounded] = np.clip(x[bounded], 0.0, 1.0)
         if not outside.any():
             break
         free &= ~outside

@@ -8,7 +8,7 @@ two neighbouring keys. Long takes are cut into stretches, so that memory stays s
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -20,6 +20,7 @@ from lipwright.engines.bigram.fit.takes import FaceTake
 from lipwright.engines.bigram.model import BigramSet
 from lipwright.engines.bigram.preparation import Spans, prepare
 from lipwright.errors import LabelError
+from lipwright.phones import SILENCE
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -100,6 +101,9 @@ class Stretch:
         Weights of the poses that the takes do not show, as the base set has them.
     frames : (F, P) float
         The recorded weights.
+    said : (F,) int
+        The number of the word that is spoken, or of the pair where no words are known; -1
+        for neither.
     """
 
     clock: Clock
@@ -108,6 +112,7 @@ class Stretch:
     share: Floats
     above: Floats
     frames: Floats
+    said: Ints
 
     @property
     def held(self) -> Floats:
@@ -134,6 +139,11 @@ class Pairs:
         return LEVELS * (row * len(self.labels) + column)
 
 
+def places(boundary: float) -> Floats:
+    """Where the five keys lie in a bigram whose boundary is there."""
+    return np.where(PLACES <= 0.5, 2 * PLACES * boundary, 1 - 2 * (1 - PLACES) * (1 - boundary))
+
+
 def stretches(
     takes: Sequence[FaceTake], base: BigramSet, pairs: Pairs, above: Sequence[str]
 ) -> list[Stretch]:
@@ -156,6 +166,8 @@ def stretches(
     engine = BigramEngine(base)
     columns = [base.rules.names.index(pose) for pose in above]
     found: list[Stretch] = []
+    words = sorted({word.label for take in takes for word in take.words} - {SILENCE, ""})
+    numbers = {word: number for number, word in enumerate(words)}
     for take in takes:
         try:
             solved = engine.solve(take.phones)
@@ -169,8 +181,28 @@ def stretches(
         near, share = _lanes(spans, pairs, times)
         fine = clock.rate * clock.steps
         held = engine.sample(solved, float(times[0]), len(times), fine)[:, columns].T
-        found += _cut(take, clock, near, share, held)
+        said = _words_said(take, numbers) if numbers else _pairs_said(take, spans, pairs)
+        found += _cut(take, clock, near, share, held, said)
     return found
+
+
+def _words_said(take: FaceTake, numbers: Mapping[str, int]) -> Ints:
+    """Which word each frame shows; -1 for none."""
+    said = np.full(len(take.values), -1, dtype=np.int64)
+    for word in take.words:
+        if word.label in numbers:
+            here = (take.times >= word.start) & (take.times < word.end)
+            said[here] = numbers[word.label]
+    return said
+
+
+def _pairs_said(take: FaceTake, spans: Spans, pairs: Pairs) -> Ints:
+    """Which pair's boundary is the nearest at each frame; -1 where nothing is said."""
+    keys = np.array([pairs.key(*pair) // LEVELS for pair in spans.pairs], dtype=np.int64)
+    between = 0.5 * (spans.boundary[:-1] + spans.boundary[1:])
+    said = keys[np.searchsorted(between, take.times)]
+    within = (take.times >= spans.first[0]) & (take.times < spans.last[-1])
+    return np.where(within, said, -1)
 
 
 def _lanes(spans: Spans, pairs: Pairs, times: Floats) -> tuple[Ints, Floats]:
@@ -197,7 +229,9 @@ def _lanes(spans: Spans, pairs: Pairs, times: Floats) -> tuple[Ints, Floats]:
     return near, share
 
 
-def _cut(take: FaceTake, clock: Clock, near: Ints, share: Floats, held: Floats) -> list[Stretch]:
+def _cut(
+    take: FaceTake, clock: Clock, near: Ints, share: Floats, held: Floats, said: Ints
+) -> list[Stretch]:
     found = []
     for first in range(0, len(take.values), FRAMES):
         frames = np.asarray(take.values[first : first + FRAMES], dtype=np.float64)
@@ -208,5 +242,7 @@ def _cut(take: FaceTake, clock: Clock, near: Ints, share: Floats, held: Floats) 
         local = np.zeros(spoken.shape, dtype=np.int64)
         local[spoken] = places
         if len(keys):
-            found.append(Stretch(clock, keys, local, share[:, low:high], held[:, low:high], frames))
+            here = slice(low, high)
+            own = said[first : first + FRAMES]
+            found.append(Stretch(clock, keys, local, share[:, here], held[:, here], frames, own))
     return found

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from lipwright.engines.bigram.model import BigramSet
 from lipwright.errors import InputError, did_you_mean
 from lipwright.phones import SILENCE, PhoneTrack
+from lipwright.timeline import Tier
 
 FEWEST_FRAMES = 4
 SLOWEST, FASTEST = 5.0, 1000.0
@@ -33,6 +34,8 @@ class FaceTake:
     start : float
         Seconds, on the clock of the phones.
     phones : PhoneTrack
+    words : Tier
+        What is said; says only which frames are left out together when the fit tries itself.
 
     Raises
     ------
@@ -46,6 +49,7 @@ class FaceTake:
     rate: float
     start: float
     phones: PhoneTrack
+    words: Tier = field(default_factory=Tier)
 
     def __post_init__(self) -> None:
         shape = self.values.shape
@@ -71,6 +75,12 @@ class FaceTake:
             raise InputError(
                 "no phones", where=self.name, expected="what is said in it, with its times"
             )
+
+    @property
+    def times(self) -> NDArray[np.float64]:
+        """The middles of the frames, seconds."""
+        count = len(self.values)
+        return np.asarray(self.start + (np.arange(count) + 0.5) / self.rate, dtype=np.float64)
 
 
 def check_takes(takes: Sequence[FaceTake], base: BigramSet) -> None:
