@@ -15,7 +15,6 @@ from lipwright.engines.motion.joining import join
 from lipwright.engines.motion.learnt import Known
 from lipwright.engines.motion.rasta_plp import Features
 from lipwright.engines.motion.search import (
-    PATHS,
     Costs,
     Search,
     find_several,
@@ -28,7 +27,8 @@ from lipwright.phones import load_reduction
 
 Floats = NDArray[np.float64]
 Units = NDArray[np.int64]
-Finding = Callable[["Base", "Line"], "Found"]
+Finding = Callable[["Base", "Line"], Callable[[], "Found"]]
+"""Makes ready what a search is given, and returns the search."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -105,44 +105,52 @@ def line(left_out: Database, first: int, count: int) -> Line:
 def alike(search: Search, count: int) -> Finding:
     """Return what finds so many paths of equal merit by a search, for their mean."""
 
-    def find(base: Base, said: Line) -> Found:
+    def ready(base: Base, said: Line) -> Callable[[], Found]:
         _, sound = _wanted(base.database, said)
         costs = Costs(base.graph, sound)
-        paths = find_several(search, base.graph, said.labels, costs, count=count)
-        units = np.stack([path.units for path in paths])
-        return Found(units, paths[0].jumps, paths[0].complete)
 
-    return find
+        def find() -> Found:
+            paths = find_several(search, base.graph, said.labels, costs, count=count)
+            units = np.stack([path.units for path in paths])
+            return Found(units, paths[0].jumps, paths[0].complete)
+
+        return find
+
+    return ready
 
 
 def one_path(search: Search) -> Finding:
     """Return what finds a single path by one of the publication's searches, or ours."""
 
-    def find(base: Base, said: Line) -> Found:
+    def ready(base: Base, said: Line) -> Callable[[], Found]:
         wanted, sound = _wanted(base.database, said)
-        path = search(base.graph, wanted, Costs(base.graph, sound))
-        return Found(path.units, path.jumps, path.complete)
+        costs = Costs(base.graph, sound)
 
-    return find
+        def find() -> Found:
+            path = search(base.graph, wanted, costs)
+            return Found(path.units, path.jumps, path.complete)
 
+        return find
 
-def several_paths(base: Base, said: Line) -> Found:
-    """Find several paths whose mean is taken."""
-    return _by_cost(base, said, PATHS)
-
-
-def cheapest_path(base: Base, said: Line) -> Found:
-    """Find the one path that costs least."""
-    return _by_cost(base, said, 1)
+    return ready
 
 
-def _by_cost(base: Base, said: Line, paths: int) -> Found:
-    wanted, sound = _wanted(base.database, said)
-    classes, lengths = _classes(base.database), np.diff(said.spans)[:, 0]
-    units = several(base.database, wanted, lengths, classes, sound, paths)
-    first, take = units[0], base.database.take
-    follows = (first[1:] == first[:-1] + 1) & (take[first[1:]] == take[first[:-1]])
-    return Found(units, int((~follows).sum()))
+def by_cost(paths: int) -> Finding:
+    """Return what finds so many paths by their cost alone."""
+
+    def ready(base: Base, said: Line) -> Callable[[], Found]:
+        wanted, sound = _wanted(base.database, said)
+        classes, lengths = _classes(base.database), np.diff(said.spans)[:, 0]
+
+        def find() -> Found:
+            units = several(base.database, wanted, lengths, classes, sound, paths)
+            first, take = units[0], base.database.take
+            follows = (first[1:] == first[:-1] + 1) & (take[first[1:]] == take[first[:-1]])
+            return Found(units, int((~follows).sum()))
+
+        return find
+
+    return ready
 
 
 def _wanted(database: Database, said: Line) -> tuple[Units, NDArray[np.float32]]:
@@ -187,12 +195,10 @@ def tried(base: Base, said: Line, find: Finding, runs: int = 1) -> Result:
     runs : int
         The search is run as often; the median is taken.
     """
-    begun = time.perf_counter()
-    found = find(base, said)
-    times = [time.perf_counter() - begun]
-    for _ in range(runs - 1):
+    search, times = find(base, said), []
+    for _ in range(runs):
         begun = time.perf_counter()
-        find(base, said)
+        found = search()
         times.append(time.perf_counter() - begun)
     made = motion(base, said, found.units)
     count = min(len(made), len(said.true))

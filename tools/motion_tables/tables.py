@@ -13,7 +13,7 @@ from lipwright.engines.motion.database import Database, Settings
 from lipwright.engines.motion.engine import ALIKE as PATHS_ALIKE
 from lipwright.engines.motion.graph import graph_of
 from lipwright.engines.motion.learnt import keep_learnt, learnt_of
-from lipwright.engines.motion.search import greedy, optimal, pq
+from lipwright.engines.motion.search import PATHS, greedy, optimal, pq
 from lipwright.engines.motion.splicing import PairTable
 from tools.motion_tables.lines import (
     Base,
@@ -21,10 +21,9 @@ from tools.motion_tables.lines import (
     Line,
     Result,
     alike,
-    cheapest_path,
+    by_cost,
     line,
     one_path,
-    several_paths,
     tried,
 )
 from tools.motion_tables.published import CLUSTERED, SEARCHES
@@ -52,8 +51,8 @@ def ours() -> dict[str, Finding]:
     return {
         "optimal": one_path(optimal),
         f"optimal, {ALIKE} paths": alike(optimal, ALIKE),
-        "cheapest": cheapest_path,
-        "several": several_paths,
+        "cheapest": by_cost(1),
+        "several": by_cost(PATHS),
     }
 
 

@@ -49,7 +49,7 @@ SEARCHES: dict[str, Callable[[], Search]] = {
     "pq": lambda: pq(4, seconds=10.0),
 }
 """The publication's searches; ``pq`` takes the best it has after ten seconds."""
-ALIKE = {"optimal": 8}
+ALIKE = {"optimal": 6}
 """How many paths of equal merit a search gives, where it is not one."""
 _SHORTEST_GAP = 1e-6
 
