@@ -28,7 +28,7 @@ SEEN = 1e-3
 """A shape that moves nothing there by as much is not seen, metres."""
 FIRM = 5e-5
 """Keeps poses that look alike apart: a share of the poses' mean square."""
-CLOSE = 1e-6
+CLOSE = 3e-5
 SWEEPS = 5000
 
 
@@ -124,7 +124,8 @@ def nonnegative(squares: Floats, products: Floats, given: Floats | None = None) 
     low, high = np.zeros_like(products), np.ones_like(products)
     if given is not None:
         low, high = np.where(np.isnan(given), low, given), np.where(np.isnan(given), high, given)
-    found = low.copy()
+    # Where no bound is met, that is the minimum already.
+    found = np.clip(np.linalg.solve(squares, products.T).T, low, high)
     for _ in range(SWEEPS):
         moved = 0.0
         for pose in range(len(squares)):
