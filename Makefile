@@ -38,7 +38,7 @@ check: $(READY)
 
 test: check client chromium
 	$(BIN)/python hatch_build.py test
-	$(BIN)/python -m pytest -n auto
+	OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/python -m pytest -n auto
 
 chromium:
 	@sh tools/need_chromium.sh
