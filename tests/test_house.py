@@ -21,7 +21,8 @@ LAYERS = [
     ("schedule", "engines", "character", "export", "evaluate"),
     ("casting", "marker_faces", "told_in_poses"),
     ("acting",),
-    ("pipeline", "corpus", "marker_takes", "motion_takes", "recorded"),
+    ("hearing", "measuring"),
+    ("pipeline", "corpus", "marker_takes", "motion_takes", "neural_takes", "recorded"),
     ("cli",),
 ]
 APART = ("schedule", "engines", "character", "export", "evaluate")
@@ -94,7 +95,7 @@ def test_every_public_name_is_there() -> None:
         ("import lipwright", ["numpy", "msgspec", "click"]),
         ("import lipwright.cli", ["numpy", "msgspec", "rich"]),
         (
-            "import lipwright.pipeline, lipwright.engines.bigram",
+            "import lipwright.pipeline, lipwright.engines.bigram, lipwright.engines.neural.engine",
             ["scipy", "sklearn", "pocketsphinx", "soundfile", "starlette", "espeakng_loader"],
         ),
     ],
