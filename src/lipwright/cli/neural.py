@@ -96,13 +96,12 @@ def _tell(model: Model, path: str, as_json: bool) -> None:
         f"{1000 * hearing.segment:g} ms, {hearing.areas} areas from {hearing.lowest:g} to "
         f"{hearing.highest:g} Hz ({hearing.scale})"
     )
-    if "seconds" in about and "error" in about:
-        click.echo(
-            f"  learnt  {about['seconds']:g} s from {about.get('sounds', 1)} sounds; "
-            f"off by {about['error']:.3f} on them (root mean square)"
-        )
-    for text in about.get("notes", []):
-        note(str(text))
+    click.echo(
+        f"  learnt  {about['seconds']:g} s from {about['sounds']} sounds; "
+        f"off by {about['error']:.3f} on them (root mean square)"
+    )
+    for text in about["notes"]:
+        note(text)
 
 
 def _facts(model: Model, path: str) -> dict[str, Any]:

@@ -156,6 +156,7 @@ def test_without_the_extra_training_says_what_to_install(monkeypatch: pytest.Mon
         (lambda d: d["hearing"].update(hop=0), "at hearing"),
         (lambda d: d["hearing"].update(rate=10**9), "at hearing"),
         (lambda d: d.pop("layers"), "layers"),
+        (lambda d: d["about"].update(seconds="long"), "at about.seconds"),
     ],
 )
 def test_broken_models_are_refused(model: Model, tmp_path: Path, change, words: str) -> None:  # type: ignore[no-untyped-def]

@@ -48,7 +48,8 @@ class Model:
         How far, in deviations, inputs of the training lay from their mean: all but the
         farthest hundredth.
     about : dict
-        What it was trained on and how well that went; JSON values only.
+        What it was trained on and how well that went: see
+        :func:`~lipwright.engines.neural.training.train`.
     """
 
     controls: tuple[str, ...]
@@ -128,13 +129,21 @@ def read_model(path: str | Path) -> Model:
         read.hearing,
         network,
         read.usual,
-        read.about,
+        msgspec.to_builtins(read.about),
     )
 
 
 class _Layer(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     bias: list[float]
     weights: list[list[float]]
+
+
+class _About(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    seconds: float
+    sounds: int
+    error: float
+    constant: list[str]
+    notes: list[str]
 
 
 class _Document(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
@@ -147,7 +156,7 @@ class _Document(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     mean: list[float]
     deviation: list[float]
     layers: list[_Layer]
-    about: dict[str, Any] = {}
+    about: _About
 
 
 def _check(read: _Document, network: Network, where: str) -> None:
