@@ -32,6 +32,7 @@ MEASURES = (
     "motion_joining",
     "motion_capture",
     "motion_skin",
+    "neural",
 )
 
 

@@ -32,6 +32,7 @@ from lipwright.engines.motion.engine import MotionEngine
 from lipwright.engines.motion.learnt import keep_learnt
 from lipwright.evaluate import Curve, MotionReport, Recording
 from lipwright.evaluate.motion import correlation
+from lipwright.measuring import head_mouth
 from lipwright.motion_takes import build_motion
 from lipwright.sound_files import read_sound
 from lipwright.speech import Speech
@@ -79,7 +80,7 @@ def cut(folder: Path) -> list[str]:
 def read(folder: Path, name: str) -> Line:
     """Hear a stretch and measure the animators' mouth on the built-in head."""
     motion = read_motion(folder / f"{name}.csv")
-    skin, marks = pipeline._head_mouth()
+    skin, marks = head_mouth()
     weights = dict(zip(motion.channels, motion.values.T.astype(np.float64), strict=True))
     mouth = measure_mouth([skin], marks, weights)
     face = Recording(

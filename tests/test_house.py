@@ -21,7 +21,16 @@ LAYERS = [
     ("schedule", "engines", "character", "export", "evaluate"),
     ("casting", "marker_faces", "told_in_poses"),
     ("acting",),
-    ("pipeline", "corpus", "marker_takes", "motion_takes", "recorded", "recorded_database"),
+    ("hearing", "measuring"),
+    (
+        "pipeline",
+        "corpus",
+        "marker_takes",
+        "motion_takes",
+        "neural_takes",
+        "recorded",
+        "recorded_database",
+    ),
     ("cli",),
 ]
 APART = ("schedule", "engines", "character", "export", "evaluate")
@@ -94,7 +103,7 @@ def test_every_public_name_is_there() -> None:
         ("import lipwright", ["numpy", "msgspec", "click"]),
         ("import lipwright.cli", ["numpy", "msgspec", "rich"]),
         (
-            "import lipwright.pipeline, lipwright.engines.bigram",
+            "import lipwright.pipeline, lipwright.engines.bigram, lipwright.engines.neural.engine",
             ["scipy", "sklearn", "pocketsphinx", "soundfile", "starlette", "espeakng_loader"],
         ),
     ],

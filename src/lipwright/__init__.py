@@ -20,7 +20,9 @@ if TYPE_CHECKING:
     from lipwright.character import load_character
     from lipwright.engines.bigram import BigramEngine, BigramSet, load_set
     from lipwright.errors import InputError, LipwrightError, MissingExtraError, OutputError
+    from lipwright.hearing import sound_alone
     from lipwright.motion_takes import build_motion
+    from lipwright.neural_takes import train_model
     from lipwright.performance import Performance
     from lipwright.phones import PhoneTrack
     from lipwright.pipeline import align, animate, from_labels, hear, recognise, save, say
@@ -59,6 +61,8 @@ _HOMES = {
     "recognise": "pipeline",
     "save": "pipeline",
     "say": "pipeline",
+    "sound_alone": "hearing",
+    "train_model": "neural_takes",
 }
 
 __all__ = [
@@ -87,6 +91,8 @@ __all__ = [
     "recognise",
     "save",
     "say",
+    "sound_alone",
+    "train_model",
 ]
 
 

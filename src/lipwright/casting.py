@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from lipwright.engines.bigram import BigramEngine, BigramSet
     from lipwright.engines.motion.engine import MotionEngine
 
-ENGINES = ("bigram", "motion")
+ENGINES = ("bigram", "motion", "neural")
 DEFAULT_SET = "english"
 SETS_BY_LANGUAGE = {"cmn": "mandarin", "zh": "mandarin"}
 """Languages that have a set of their own, by their first part."""
@@ -132,7 +132,12 @@ def _loaded_set(name: str, file: CharacterFile | None) -> BigramSet:
     return base
 
 
-def check_engine(engine: str, database: str | Path | None, of_bigrams: Sequence[object]) -> None:
+def check_engine(
+    engine: str,
+    database: str | Path | None,
+    of_bigrams: Sequence[object],
+    model: str | Path | None = None,
+) -> None:
     """Refuse an engine that is unknown, lacks what it needs, or is given what it cannot use.
 
     Raises
@@ -141,15 +146,23 @@ def check_engine(engine: str, database: str | Path | None, of_bigrams: Sequence[
     """
     if engine not in ENGINES:
         raise InputError(f"no engine {engine!r}", expected=" or ".join(ENGINES))
-    if engine == "bigram" and database is not None:
+    if engine != "motion" and database is not None:
         raise InputError(
-            "a motion database, with the bigram engine", cure="choose the motion engine"
+            f"a motion database, with the {engine} engine", cure="choose the motion engine"
         )
-    if engine != "motion":
-        return
-    if any(given is not None for given in of_bigrams):
+    if engine != "neural" and model is not None:
         raise InputError(
-            "overrides, a reduction or edits, with the motion engine",
+            f"a neural model, with the {engine} engine", cure="choose the neural engine"
+        )
+    if engine == "neural" and model is None:
+        raise InputError(
+            "the neural engine, without a model",
+            cure="name one with --model; 'lipwright neural train' makes it",
+        )
+    if engine != "bigram" and any(given is not None for given in of_bigrams):
+        raise InputError(
+            f"{'a set, ' if engine == 'neural' else ''}overrides, a reduction or edits,"
+            f" with the {engine} engine",
             cure="leave them out: they are the bigram engine's",
         )
 

@@ -16,19 +16,18 @@ from typing import TYPE_CHECKING
 
 from lipwright.acting import Acted, Acting, act
 from lipwright.casting import character_file, check_engine, engine_for, motion_engine
-from lipwright.errors import CharacterError, SoundError
+from lipwright.errors import SoundError
+from lipwright.hearing import act_by_ear
+from lipwright.hearing import sound_alone as sound_alone
+from lipwright.measuring import evaluate_motion as evaluate_motion
 from lipwright.performance import Performance
 from lipwright.sound import Sound
 from lipwright.speech import Speech
 
 if TYPE_CHECKING:
-    from lipwright.animation import Animation
     from lipwright.character import Character
-    from lipwright.character.head import Landmarks
-    from lipwright.character.mesh import Part
     from lipwright.engines.bigram import BigramSet
     from lipwright.engines.bigram.fit import FitReport
-    from lipwright.evaluate import MotionReport, Recording
 
 Progress = Callable[[float], None]
 
@@ -176,6 +175,7 @@ def animate(
     rate: float = 60.0,
     database: str | Path | None = None,
     search: str = "several",
+    model: str | Path | None = None,
     controls: str | None = None,
     markers: str | Path | None = None,
     pictures: str | Path | None = None,
@@ -191,7 +191,8 @@ def animate(
     speech : Speech
         From :func:`say`, :func:`align`, :func:`recognise`, :func:`hear` or :func:`from_labels`.
     engine : str
-        ``"bigram"``, or ``"motion"``, which searches a ``database``.
+        ``"bigram"``; ``"motion"``, which searches a ``database``; or ``"neural"``, which hears
+        the sound by a ``model`` and needs no phones.
     bigram_set : str or path, optional
         A set that comes with Lipwright, or a file; else the character's, else English. With
         the motion engine: in whose poses its motion is told.
@@ -216,10 +217,13 @@ def animate(
     search : str
         How the motion engine searches: see
         :class:`~lipwright.engines.motion.engine.MotionEngine`.
+    model : path, optional
+        What the neural engine has learnt (:mod:`lipwright.neural_takes`).
     controls : str, optional
         What the motion engine gives: ``"recorded"``, the takes' own channels, or ``"poses"``,
         those of the set; what the character can play, where it is not given.
-    markers : path, optional: where a database's markers lie on the character.
+    markers : path, optional
+        Where a database's markers lie on the character.
     pictures : str or path, optional
         The mouth shapes that formats of held shapes use for a character with a model;
         ``"rhubarb"`` where none are given.
@@ -239,13 +243,16 @@ def animate(
     from lipwright.character.pictures import hold as hold_pictures
     from lipwright.engines.bigram import read_edits
 
-    check_engine(engine, database, (overrides, reduction, edits))
+    of_bigrams = (overrides, reduction, edits, bigram_set if engine == "neural" else None)
+    check_engine(engine, database, of_bigrams, model)
     shapes = choose(character, pictures, mapping, without=without, fps=fps, on=on, hold=hold)
-    own = ""
+    own: str | None = ""
     if engine == "motion":
         mover = motion_engine(database, search)
         how = Acting(character, mapping, controls, bigram_set, markers)
         acted = act(mover.animate(speech, rate), speech, mover.database, how)
+    elif model is not None:
+        acted, own = act_by_ear(speech, rate, model), None
     else:
         made = engine_for(bigram_set, preset, overrides, reduction, character, speech.language)
         own = made.of.name
@@ -320,54 +327,6 @@ def save_labels(speech: Speech, *paths: str | Path) -> None:
     write_all(encoded)
 
 
-def evaluate_motion(
-    pairs: Sequence[tuple[Animation | str | Path, Recording | str | Path]],
-    *,
-    shapes: Sequence[str | Path] | None = None,
-    labels: Sequence[str | Path] | None = None,
-) -> MotionReport:
-    """Hold animations against recorded faces, on the built-in head.
-
-    Parameters
-    ----------
-    pairs : sequence of (animation, recording)
-        Each an object or a file: an animation in the lossless format or a TSV of Rhubarb's,
-        a recording as CSV with ``time``, ``lipGapInner`` and ``lipWidth``.
-    shapes : sequence of path, optional
-        For each recording a CSV with ``time`` and ``mouthPucker``.
-    labels : sequence of path, optional
-        For each animation the phones, where it holds none.
-
-    Raises
-    ------
-    InputError
-        If a file cannot be used, or a recording does not move.
-    CharacterError
-        If an animation has no control that moves the head's mouth.
-    """
-    from lipwright.animation import Animation
-    from lipwright.character.between import with_betweens
-    from lipwright.character.head import measure
-    from lipwright.evaluate import Curve, Pair, compare, is_rhubarb, read_recording, read_rhubarb
-
-    skin, marks = _head_mouth()
-    found = []
-    for number, (made, recorded) in enumerate(pairs):
-        name = f"pair {number + 1}" if isinstance(made, Animation) else str(made)
-        if not isinstance(made, Animation):
-            made = read_rhubarb(made) if is_rhubarb(made) else Animation.load(made)
-        if isinstance(recorded, str | Path):
-            recorded = read_recording(recorded, shapes[number] if shapes else None)
-        if not set(made.controls) & set(skin.morphs):
-            raise CharacterError("no control moves the head's mouth", where=name)
-        phones = from_labels(labels[number]).phones if labels else made.phones
-        moved = with_betweens(made, skin.morphs)
-        mouth = measure([skin], marks, dict(zip(moved.controls, moved.values.T, strict=True)))
-        opening, breadth = Curve(made.times, mouth.opening), Curve(made.times, mouth.breadth)
-        found.append(Pair(opening, breadth, recorded, phones.normalised(), name))
-    return compare(found)
-
-
 def fit_set(
     folder: str | Path,
     *,
@@ -390,11 +349,3 @@ def fit_set(
 
     takes = takes_to_fit(folder, text, base, half(0.0))
     return recorded.fit_set(takes, base=base, name=name, as_scored=as_scored, progress=half(0.5))
-
-
-@lru_cache(maxsize=1)
-def _head_mouth() -> tuple[Part, Landmarks]:
-    """Return what is measured of the built-in head: its skin, and where the mouth is."""
-    from lipwright.character.head import build_head, landmarks
-
-    return next(part for part in build_head() if part.name == "skin"), landmarks()

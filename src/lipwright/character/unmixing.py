@@ -125,7 +125,7 @@ def nonnegative(squares: Floats, products: Floats, given: Floats | None = None) 
     if given is not None:
         low, high = np.where(np.isnan(given), low, given), np.where(np.isnan(given), high, given)
     # Where no bound is met, that is the minimum already.
-    found = np.clip(np.linalg.solve(squares, products.T).T, low, high)
+    found: Floats = np.clip(np.linalg.solve(squares, products.T).T, low, high)
     for _ in range(SWEEPS):
         moved = 0.0
         for pose in range(len(squares)):

@@ -24,6 +24,7 @@ COMMANDS = {
     "phones": ("lipwright.cli.speak", "phones", "When each phone of a recording sounds."),
     "set": ("lipwright.cli.sets", "bigram_set", "Look into bigram sets: coverage, show, why."),
     "motion": ("lipwright.cli.motion", "motion", "Databases of recorded motion: build, add, info."),
+    "neural": ("lipwright.cli.neural", "neural", "Nets that hear: train, info."),
     "character": ("lipwright.cli.characters", "character", "What a character's rig has."),
     "evaluate": ("lipwright.cli.evaluate", "evaluate", "Hold animation against recordings."),
 }

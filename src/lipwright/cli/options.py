@@ -33,8 +33,8 @@ def outputs(help: str) -> Callable[[Command], Command]:
 
 animation = stack(
     click.option(
-        "--engine", type=click.Choice(["bigram", "motion"]), default="bigram", show_default=True,
-        help="What drives the mouth.",
+        "--engine", type=click.Choice(["bigram", "motion", "neural"]), default="bigram",
+        show_default=True, help="What drives the mouth.",
     ),
     click.option(
         "--database", type=click.Path(path_type=Path), metavar="DB",
@@ -46,6 +46,10 @@ animation = stack(
         type=click.Choice(["several", "cheapest", "optimal", "greedy", "pq"]),
         help="How the motion engine searches: the mean of several paths, of those with the "
         "fewest jumps (optimal), or one path.",
+    ),
+    click.option(
+        "--model", type=click.Path(path_type=Path), metavar="MODEL",
+        help="What the neural engine has learnt, see 'neural train'.",
     ),
     click.option(
         "--controls", type=click.Choice(["recorded", "poses"]),

@@ -131,10 +131,10 @@ def animate(
 
     With --text its words are put in time, in any --language; with --labels phone times are
     taken as they are; with neither the words are recognised (English), or with --by-ear
-    phones are heard without words, in any language.
+    phones are heard without words, in any language. The neural engine needs neither.
     """
     _check(outputs, how, *recording.files)
-    speech = _speech(recording)
+    speech = _speech(recording, by_sound=how["engine"] == "neural")
     _animate(speech, outputs, as_json, how, Path(recording.sound).name)
 
 
@@ -158,7 +158,7 @@ def phones(
     tell_labels(speech, outputs, as_json=as_json)
 
 
-def _speech(given: Recording) -> Speech:
+def _speech(given: Recording, *, by_sound: bool = False) -> Speech:
     from lipwright import pipeline
 
     ways = {"--text": given.text, "--text-file": given.text_file, "--labels": given.labels}
@@ -174,6 +174,8 @@ def _speech(given: Recording) -> Speech:
     if given.labels is not None:
         return pipeline.from_labels(given.labels, given.sound, phone_set=given.phone_set)
     text = read_text(given.text_file) if given.text_file is not None else given.text
+    if text is None and by_sound:
+        return pipeline.sound_alone(given.sound)
     if text is None:
         with progress("recognising") as report:
             return pipeline.recognise(given.sound, progress=report)
@@ -213,7 +215,7 @@ def _check(outputs: tuple[str, ...], how: dict[str, Any], *inputs: object) -> No
 
         if is_pictures(how["character"]):
             load_pictures(how["character"]).no_model()
-    names = ("overrides", "reduction", "edits", "mapping", "markers", "pictures")
+    names = ("overrides", "reduction", "edits", "mapping", "markers", "pictures", "model")
     read = files_read(how["character"], how["bigram_set"])
     keep_inputs(outputs, (*inputs, *read, *(how[name] for name in names)))
 
