@@ -23,7 +23,7 @@ COMMANDS = {
     "animate": ("lipwright.cli.speak", "animate", "Animate a recording."),
     "phones": ("lipwright.cli.speak", "phones", "When each phone of a recording sounds."),
     "set": ("lipwright.cli.sets", "bigram_set", "Look into bigram sets: coverage, show, why."),
-    "motion": ("lipwright.cli.motion", "motion", "Databases of recorded motion: build, add, info, bind."),
+    "motion": ("lipwright.cli.motion", "motion", "Recorded motion: build, add, info, bind."),
     "neural": ("lipwright.cli.neural", "neural", "Nets that hear: train, info."),
     "character": ("lipwright.cli.characters", "character", "What a character's rig has."),
     "evaluate": ("lipwright.cli.evaluate", "evaluate", "Hold animation against recordings."),
