@@ -168,7 +168,7 @@ def make(one: Sequence[Piece], two: Sequence[Piece]) -> dict[Path, bytes]:
     long = amounts(one, 2, spoken.drawn)[300.0]
     values = {
         "DATE": f"{datetime.now():%-d %B %Y}",
-        "RESULTS": results(both),
+        "RESULTS": results({**both, "GRID, drawn by the bigram engine": taught_by["consistent"]}),
         "CORRECT": to_correct(both),
         "UNITS": curve_table(curves),
         "AMOUNTS": left_over(more),
