@@ -15,6 +15,7 @@ from pathlib import Path
 
 import numpy as np
 
+from lipwright import pipeline
 from lipwright.engines.neural.training import DECAY
 from lipwright.errors import LipwrightError
 from lipwright.files import write_all
@@ -22,7 +23,7 @@ from lipwright.phones import SILENCE
 from lipwright.sound import Sound
 from lipwright.timeline import Interval, Tier
 from tools.neural_page.figures import figure_3, hidden_units
-from tools.neural_page.pieces import Piece, drawn, grid, takes
+from tools.neural_page.pieces import HEARING, Piece, drawn, grid, takes
 from tools.neural_page.sources import Spoken, amounts, animators, lacking, manners, voices
 from tools.neural_page.trials import Trial, five_of, mean_of, trial
 
@@ -34,7 +35,7 @@ TEMPLATE = Path(__file__).with_name("page.md")
 UNITS = (2, 4, 8, 12, 18, 24, 32, 48, 64)
 DRAWS, FEW = 10, 4
 THRESHOLDS = (0.15, 0.25, 0.35)
-SHOWN, MARGIN = 3, 0.25
+SHOWN = 2
 Trials = Mapping[str, Sequence[Trial]]
 
 
@@ -102,29 +103,29 @@ def curve_table(curves: Mapping[str, Mapping[int, float]]) -> str:
     return table(["hidden units", *map(str, UNITS)], rows)
 
 
-def stretch(pieces: Sequence[Piece], spoken: Spoken) -> str:
-    """Return Figure 3 for three sentences that were not taught."""
+def stretch(pieces: Sequence[Piece]) -> str:
+    """Return Figure 3 for pieces that were not taught, of recordings that may be shown.
+
+    Nobody has written down what is said in them: phones by ear stand for the text.
+    """
     taught, unseen = drawn(pieces, 0)
     shown = unseen[:SHOWN]
     found = trial(taught, shown, targets=five_of(taught))
-    samples, words, times, kept, at = [], list[Interval](), [], [], 0.0
-    rate = shown[0].samples().rate
+    samples, labels, times, at = [], list[Interval](), [], 0.0
     for piece in shown:
-        said = [word for word in spoken.speech(piece).words if word.label != SILENCE]
-        start, end = max(said[0].start - MARGIN, 0.0), said[-1].end + MARGIN
-        sound = piece.samples().samples[round(start * rate) : round(end * rate)]
-        within = (piece.times >= start) & (piece.times < start + len(sound) / rate)
-        words += [
-            replace(word, start=word.start - start + at, end=word.end - start + at) for word in said
-        ]
-        times.append(piece.times[within] - start + at)
-        kept.append(within)
-        samples.append(sound)
-        at += len(sound) / rate
-    whole, used = Sound(np.concatenate(samples), rate), np.concatenate(kept)
-    return figure_3(
-        whole, Tier(tuple(words)), np.concatenate(times), found.given[used], found.wanted[used]
-    )
+        whole = piece.samples()
+        start = piece.times[0] - 0.5 * HEARING.frame
+        length = round(piece.seconds * whole.rate)
+        first = max(round(start * whole.rate), 0)
+        sound = Sound(whole.samples[first : first + length], whole.rate)
+        heard = [phone for phone in pipeline.hear(sound).phones if phone.label != SILENCE]
+        labels += [replace(one, start=one.start + at, end=one.end + at) for one in heard]
+        times.append(piece.times - start + at)
+        samples.append(sound.samples)
+        at += sound.duration
+    joined = Sound(np.concatenate(samples), whole.rate)
+    text = Tier(tuple(labels))
+    return figure_3(joined, text, np.concatenate(times), found.given, found.wanted)
 
 
 def phones_told(found: Mapping[str, tuple[float, float]]) -> dict[str, str]:
@@ -182,7 +183,7 @@ def make(one: Sequence[Piece], two: Sequence[Piece]) -> dict[Path, bytes]:
     for name, value in values.items():
         text = text.replace(f"<{name}>", value)
     say("figure 3")
-    pictures = {FIGURE: stretch(one, spoken), CURVE: hidden_units(curves)}
+    pictures = {FIGURE: stretch(two), CURVE: hidden_units(curves)}
     return {PAGE: text.encode(), **{path: svg.encode() for path, svg in pictures.items()}}
 
 

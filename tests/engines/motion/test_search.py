@@ -1,7 +1,7 @@
 """The searches against exhaustive search on small databases, and against each other."""
 
-import sys
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from itertools import pairwise, product
 
 import numpy as np
@@ -21,19 +21,18 @@ from lipwright.engines.motion.search import (
     optimal,
     path_of,
     pq,
+    tiles,
     wanted_sound,
 )
 from lipwright.engines.motion.search.layered import best_nodes
-from lipwright.engines.motion.search.optimal import bounds
 from lipwright.engines.motion.search.steps import cheapest_jumps
+from lipwright.engines.motion.search.tiles import bounds
 from lipwright.errors import InputError
 from tests.engines.motion.small import database
 
 words = st.lists(st.text("abc", min_size=1, max_size=5), min_size=1, max_size=3)
 lines = st.text("abc", min_size=1, max_size=5)
 CLUSTERED = Settings(clusters=4, motion_points=4)
-# The package has a function of the module's name.
-optimal_search = sys.modules[optimal.__module__]
 
 
 def indices(of: Database, line: str) -> np.ndarray:
@@ -98,27 +97,54 @@ def test_optimal_is_the_best_of_all_paths(words: list[str], line: str) -> None:
     assert speaks(path, graph, wanted)
 
 
-@settings(max_examples=60, deadline=None)
+@contextmanager
+def few_candidates(most: int, looked_at: int, kept: int) -> Iterator[None]:
+    """A tile of more candidates than ``most`` gets few of them."""
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setattr(tiles, "MOST", most)
+        patched.setattr(tiles, "LOOKED_AT", looked_at)
+        patched.setattr(tiles, "KEPT", kept)
+        yield
+
+
+@settings(max_examples=80, deadline=None)
 @given(
-    words=st.lists(st.text("abc", min_size=1, max_size=30), min_size=1, max_size=30),
-    line=st.text("abc", min_size=1, max_size=30),
-    most=st.integers(1, 5),
+    words=st.lists(st.text("abcd", min_size=1, max_size=30), min_size=1, max_size=12),
+    line=st.text("abcd", min_size=1, max_size=40),
+    most=st.integers(1, 6),
+    looked_at=st.integers(1, 6),
+    kept=st.integers(1, 3),
 )
-def test_in_a_large_database_jumps_stay_the_fewest(words: list[str], line: str, most: int) -> None:
+def test_with_few_candidates_jumps_are_fewest_and_the_cost_is_no_more_than_greedys(
+    words: list[str], line: str, most: int, looked_at: int, kept: int
+) -> None:
     graph = UnitGraph(database(*words))
     wanted = indices(graph.database, line)
     measured = costs(graph, len(line))
-    whole = optimal(graph, wanted, measured)
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(optimal_search, "MOST", most)
-        patch.setattr(optimal_search, "KEPT", most)
+    exact = optimal(graph, wanted, measured)
+    assert exact.complete
+    with few_candidates(most, looked_at, kept):
         path = optimal(graph, wanted, measured)
-    assert path.jumps == whole.jumps == greedy(graph, wanted, measured).jumps
-    assert path.cost >= whole.cost - 1e-6
+        again = optimal(graph, wanted, measured)
+    assert path.jumps == exact.jumps
     assert speaks(path, graph, wanted)
-    if path.cost > whole.cost + 1e-6:
-        assert not path.complete
-    assert whole.complete
+    assert exact.cost - 1e-6 <= path.cost <= greedy(graph, wanted, measured).cost + 1e-6
+    assert not path.complete or path.cost == pytest.approx(exact.cost, abs=1e-6)
+    assert path.units.tolist() == again.units.tolist()
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_with_few_candidates_the_cost_is_within_a_twentieth_of_the_least(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    held = database(*("".join(rng.choice([*"abcdef"], 30)) for _ in range(60)))
+    graph = UnitGraph(held)
+    wanted = rng.integers(0, len(held.labels), 40)
+    measured = costs(graph, len(wanted), seed)
+    exact = optimal(graph, wanted, measured)
+    with few_candidates(16, 16, 4):
+        path = optimal(graph, wanted, measured)
+    assert not path.complete
+    assert exact.cost - 1e-6 <= path.cost <= 1.05 * exact.cost
 
 
 @settings(max_examples=80, deadline=None)

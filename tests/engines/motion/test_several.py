@@ -121,3 +121,35 @@ def test_a_long_line_is_cut_and_still_spoken(monkeypatch: pytest.MonkeyPatch) ->
     cut = asked(held, line, 2)
     assert cut.shape == whole.shape
     assert (held.label[cut] == held.label[whole]).all()
+
+
+@pytest.mark.parametrize("unsure", [False, True])
+def test_units_that_are_left_out_without_their_sound_could_not_be_chosen(
+    monkeypatch: pytest.MonkeyPatch, *, unsure: bool
+) -> None:
+    held = database(*(["abcabcbac"] * 100))
+    wanted, lengths, classes, sound = arguments(held, "abcacbba")
+    monkeypatch.setattr(module, "KEPT", 15)
+    found = several(held, wanted, lengths, classes, sound, unsure=unsure)
+
+    def everywhere(
+        held: Database, units: np.ndarray, cost: np.ndarray, sound: np.ndarray, weight: float
+    ) -> tuple[np.ndarray, np.ndarray]:
+        away = held.unit_sound[units] - sound
+        return units, cost + weight * np.sqrt((away**2).mean(axis=1))
+
+    monkeypatch.setattr(module, "_heard", everywhere)
+    assert (several(held, wanted, lengths, classes, sound, unsure=unsure) == found).all()
+
+
+def test_of_a_frequent_phone_stretches_all_over_the_database_are_read(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    held = database(*(["ab"] * 500))
+    monkeypatch.setattr(module, "LOOKED_AT", 64)
+    monkeypatch.setattr(module, "STRETCHES", 8)
+    units = module._having(held, 0)
+    assert len(units) == 64
+    assert (held.label[units] == 0).all()
+    assert np.flatnonzero(np.diff(units) != 2).tolist() == list(range(7, 63, 8))
+    assert units[-1] > 800

@@ -133,8 +133,13 @@ class LabelIndex:
 
     def occurrences(self, wanted: Sequence[int]) -> NDArray[np.int32]:
         """Return the units that begin with a whole string, in the order of the array."""
+        low, high = self.places(wanted)
+        return self.suffixes[low:high]
+
+    def places(self, wanted: Sequence[int]) -> tuple[int, int]:
+        """Return where in ``suffixes`` the units lie that begin with a whole string."""
         length, low, high = self.longest(wanted)
-        return self.suffixes[low:high] if length == len(wanted) else self.suffixes[:0]
+        return (low, high) if length == len(wanted) else (0, 0)
 
     def _packed(self, labels: Sequence[int]) -> int:
         key = 0

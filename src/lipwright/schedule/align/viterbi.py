@@ -107,7 +107,7 @@ def _forward(
     value += scores[0][columns]
     moved = np.zeros((len(scores), states), np.bool_)
     entered = np.zeros((len(scores), len(entry)), np.uint16)
-    came = np.empty(states, np.float32)
+    came = np.full(states, _NEVER, np.float32)
     for t in range(1, len(scores)):
         came[1:] = value[:-1]
         came += arcs.move

@@ -143,17 +143,28 @@ class Costs:
 
         The distance of the motions' states at the seam; 0 for neighbours in a take.
         """
-        ends = self._seams[self._graph.units(left), 1].astype(np.float64)
-        begins = self._seams[self._graph.units(right), 0].astype(np.float64)
-        squared = ends @ begins.T
-        squared *= -2.0
-        squared += np.einsum("ad,ad->a", ends, ends)[:, None]
-        squared += np.einsum("bd,bd->b", begins, begins)
+        return self.between(self.ends(left), self.begins(right))
+
+    def ends(self, nodes: Nodes) -> Floats:
+        """Return the states in which nodes end: (A, S)."""
+        states: Floats = self._seams[self._graph.units(nodes), 1].astype(np.float64)
+        return states
+
+    def begins(self, nodes: Nodes) -> Floats:
+        """Return the states in which nodes begin: (B, S)."""
+        states: Floats = self._seams[self._graph.units(nodes), 0].astype(np.float64)
+        return states
+
+    def between(self, one: Floats, other: Floats) -> Floats:
+        """Return how badly nodes in some states join nodes in others: (A, B)."""
+        squared: Floats = one @ (-2.0 * other.T)
+        squared += np.einsum("ad,ad->a", one, one)[:, None]
+        squared += np.einsum("bd,bd->b", other, other)
         np.maximum(squared, 0.0, out=squared)
         np.sqrt(squared, out=squared)
-        squared *= self._joining_weight
-        distance: Floats = squared
-        return distance
+        if self._joining_weight != 1.0:
+            squared *= self._joining_weight
+        return squared
 
     def joinings(self, left: Nodes, right: Nodes) -> Floats:
         """Return how badly each left node joins the right one beside it: (M,)."""

@@ -35,7 +35,7 @@ def greedy(graph: Graph, wanted: NDArray[np.integer], costs: Costs) -> Path:
     """
     labels = checked(graph, wanted)
     if isinstance(graph, UnitGraph):
-        return path_of(graph, _in_units(graph, labels, costs), costs)
+        return path_of(graph, longest_matches(graph, labels, costs), costs)
     nodes: list[int] = []
     while len(nodes) < len(labels):
         nodes += _longest(graph, labels, len(nodes), costs)
@@ -52,7 +52,8 @@ def tiles(graph: UnitGraph, labels: Sequence[int]) -> list[Tile]:
     return found
 
 
-def _in_units(graph: UnitGraph, labels: Sequence[int], costs: Costs) -> Nodes:
+def longest_matches(graph: UnitGraph, labels: Sequence[int], costs: Costs) -> Nodes:
+    """Return the units of the longest matches that sound nearest, one for each label."""
     found = tiles(graph, labels)
     if not found:
         return np.zeros(0, np.int64)

@@ -30,7 +30,11 @@ PATHS = 12
 KEPT = 96
 """Units of a phone that paths choose among."""
 LOOKED_AT = 4096
-"""Units of a phone that are compared, spread evenly over the database, if it holds more."""
+STRETCHES = 64
+"""Of a phone with more units than ``LOOKED_AT``, as many are compared: those that follow
+each of so many places, which lie evenly over the database and are the same for all phones.
+What lies between is never read, so that a search needs little memory.
+"""
 NEIGHBOUR = 1.0
 """What a neighbour of another class costs, in deviations of sound; of the same class, less."""
 ALIKE = 0.4
@@ -141,12 +145,8 @@ def _phone(
 ) -> _Phone:
     units = _having(database, wanted[place])
     cost = np.zeros(len(units))
-    if sound is not None:
-        if unsure:
-            units, cost = _any(database, units, wanted[place], classes)
-        away = database.unit_sound[units] - sound[place]
-        far = np.sqrt(np.einsum("ud,ud->u", away, away) / away.shape[1])
-        cost += UNSURE_SOUND * far if unsure else far
+    if sound is not None and unsure:
+        units, cost = _any(database, units, wanted[place], classes)
     before = wanted[place - 1] if place else -1
     after = wanted[place + 1] if place + 1 < len(wanted) else -1
     cost += _strangeness(database, units, -1, before, classes)
@@ -155,17 +155,48 @@ def _phone(
     own = np.maximum((spans[:, 1] - spans[:, 0]) / database.rate, _SHORTEST)
     cost += LENGTH * np.abs(np.log(own / max(length, _SHORTEST)))
     cost += unusual * database.unusual[units]
-    if len(cost) > KEPT:
-        best = np.argpartition(cost, KEPT)[:KEPT]
-        units, cost = units[best], cost[best]
-    return _Phone(units, cost)
+    if sound is not None:
+        weight = UNSURE_SOUND if unsure else 1.0
+        units, cost = _heard(database, units, cost, sound[place], weight)
+    best = _least(cost, KEPT)
+    return _Phone(units[best], cost[best])
+
+
+def _heard(
+    database: Database, units: Nodes, cost: Floats, sound: Singles, weight: float
+) -> tuple[Nodes, Floats]:
+    """Add what sound costs, and leave out units that are none of the cheapest without it."""
+
+    def away(of: Nodes) -> Floats:
+        apart = database.unit_sound[of] - sound
+        distance: Floats = np.sqrt(np.einsum("ud,ud->u", apart, apart) / apart.shape[1])
+        return weight * distance
+
+    if len(units) > 16 * KEPT:
+        some = _least(cost, 4 * KEPT)
+        bound = np.partition(cost[some] + away(units[some]), KEPT)[KEPT]
+        within = cost <= bound
+        units, cost = units[within], cost[within]
+    return units, cost + away(units)
+
+
+def _least(cost: Floats, count: int) -> Nodes:
+    """Return the places of the least, at most so many, in order of places."""
+    if len(cost) <= count:
+        return np.arange(len(cost))
+    return np.sort(np.argpartition(cost, count)[:count])
 
 
 def _having(database: Database, label: int) -> Nodes:
     """Return the units of a label that are looked at."""
     first, last = database.label_first[label : label + 2].tolist()
-    step = max(1, -(-(last - first) // LOOKED_AT))
-    return np.asarray(database.by_label[first:last:step], np.int64)
+    having = database.by_label[first:last]
+    if len(having) > LOOKED_AT:
+        every = np.arange(STRETCHES) * len(database.label) // STRETCHES
+        starts = np.searchsorted(having, every.astype(having.dtype))
+        places = starts[:, None] + np.arange(LOOKED_AT // STRETCHES)
+        having = having[places[places < np.append(starts[1:], len(having))[:, None]]]
+    return having.astype(np.int64)
 
 
 def _any(

@@ -11,8 +11,8 @@ from lipwright.engines.motion.graph import Graph, Nodes
 from lipwright.engines.motion.search.costs import Costs, Floats
 from lipwright.errors import InputError
 
-_FIRST_ROWS = 64
-_LARGEST = 1 << 21
+_FEWEST, _SMALLEST = 64, 1 << 13
+_LARGEST = 1 << 17
 
 
 def checked(graph: Graph, wanted: NDArray[np.integer]) -> list[int]:
@@ -96,19 +96,25 @@ def cheapest_jumps(costs: Costs, left: Nodes, so_far: Floats, right: Nodes) -> t
         Place in ``left``.
     """
     order = np.argsort(so_far, kind="stable")
+    ordered, ascending = left[order], so_far[order]
+    begins = costs.begins(right)
     best, source = np.full(len(right), np.inf), np.zeros(len(right), np.int64)
     open_places = np.arange(len(right))
-    at, rows = 0, _FIRST_ROWS
+    at, many = 0, _FEWEST
     while at < len(order) and len(open_places):
-        some = order[at : at + max(1, min(rows, _LARGEST // len(open_places)))]
-        sums = costs.joining(left[some], right[open_places])
-        sums += so_far[some][:, None]
-        which = sums.argmin(axis=0)
-        least = sums[which, np.arange(len(open_places))]
+        most = _LARGEST // len(open_places)
+        last = at + max(1, min(max(many, _SMALLEST // len(open_places)), most))
+        # Right nodes as rows: each one's least is then found in one stretch of memory.
+        sums = costs.between(begins, costs.ends(ordered[at:last]))
+        sums += ascending[at:last]
+        which = sums.argmin(axis=1)
+        least = sums[np.arange(len(open_places)), which]
         better = least < best[open_places]
-        best[open_places[better]] = least[better]
-        source[open_places[better]] = some[which[better]]
-        at, rows = at + len(some), 2 * rows
+        improved = open_places[better]
+        best[improved] = least[better]
+        source[improved] = order[at + which[better]]
+        at, many = last, 2 * many
         if at < len(order):
-            open_places = open_places[best[open_places] > so_far[order[at]]]
+            still = best[open_places] > ascending[at]
+            open_places, begins = open_places[still], begins[still]
     return best, source
