@@ -97,7 +97,7 @@ def _tell(model: Model, path: str, as_json: bool) -> None:
         f"{hearing.highest:g} Hz ({hearing.scale})"
     )
     click.echo(
-        f"  learnt  {about['seconds']:g} s from {about['sounds']} sounds; "
+        f"  learnt  {about['seconds']:g} s from {_many(about['sounds'], 'sound')}; "
         f"off by {about['error']:.3f} on them (root mean square)"
     )
     for text in about["notes"]:
@@ -112,3 +112,7 @@ def _facts(model: Model, path: str) -> dict[str, Any]:
         "frames_per_second": 1 / model.hearing.frame,
         **model.about,
     }
+
+
+def _many(count: int, what: str) -> str:
+    return f"{count} {what}" if count == 1 else f"{count} {what}s"
