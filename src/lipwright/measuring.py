@@ -8,6 +8,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from lipwright.errors import CharacterError
+from lipwright.phones import PhoneTrack, load_reduction
+from lipwright.timeline import Interval, Tier
 
 if TYPE_CHECKING:
     from lipwright.animation import Animation
@@ -61,8 +63,14 @@ def evaluate_motion(
         moved = with_betweens(made, skin.morphs)
         mouth = measure([skin], marks, dict(zip(moved.controls, moved.values.T, strict=True)))
         opening, breadth = Curve(made.times, mouth.opening), Curve(made.times, mouth.breadth)
-        found.append(Pair(opening, breadth, recorded, phones.normalised(), name))
+        found.append(Pair(opening, breadth, recorded, _classes(phones), name))
     return compare(found)
+
+
+def _classes(phones: PhoneTrack) -> PhoneTrack:
+    """Return phones as classes of the Common Phoneme Set, whatever their notation."""
+    rows, _ = load_reduction(phones.phone_set).rows(phones)
+    return PhoneTrack(Tier(tuple(Interval(*row) for row in rows)), "common")
 
 
 @lru_cache(maxsize=1)
