@@ -29,6 +29,8 @@ Progress = Callable[[float], None]
 
 SOFTNESSES = (0.03, 0.05, 0.07, 0.09, 0.11, 0.14)
 """What is tried, half-widths in seconds."""
+FAR, CARRIED = 0.2, 0.16
+"""Seconds: a pose whose maxima the base joins over more than the first is carried so far."""
 ENOUGH = 120
 """Stretches that are looked at to choose among them."""
 
@@ -268,9 +270,14 @@ def _drawn(
 
 
 def _softer(rules: Rules, softness: dict[str, float]) -> Rules:
-    """Return rules with fitted softness; valleys between fitted levels are meant: no chords."""
+    """Return rules with fitted softness; valleys between fitted levels are meant: no chords.
+
+    But what the base carries far, rounding, consonants carry on in words that no take shows.
+    """
     poses = tuple(
-        msgspec.structs.replace(pose, softness=softness[pose.name], window=0.0)
+        msgspec.structs.replace(
+            pose, softness=softness[pose.name], window=CARRIED if pose.window > FAR else 0.0
+        )
         if pose.name in softness
         else pose
         for pose in rules.poses
