@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from lipwright.animation import Animation
+from lipwright.casting import DEFAULT_SET
 from lipwright.errors import CharacterError, InputError
 from lipwright.files import file_version
 from lipwright.performance import RiggedModel
@@ -29,7 +30,6 @@ if TYPE_CHECKING:
 
 RECORDED, POSES = "recorded", "poses"
 WAYS = (RECORDED, POSES)
-DEFAULT_SET = "english"
 
 
 @dataclass(frozen=True, slots=True, eq=False)

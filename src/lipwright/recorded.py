@@ -33,8 +33,6 @@ FEWEST = 4
 """Silent frames that say what a face at rest is."""
 SETTLED = 0.2
 """Seconds next to speech in which a face moves already, or still."""
-EVEN, MOST = 0.3, 4.0
-"""What each shape is brought up to, and how many times at most; see :func:`evened`."""
 STRAIGHT = 0.6
 """The power that scores of the lips are raised to; see :func:`straightened`."""
 
@@ -197,7 +195,8 @@ def fit_set(
     name : str
         Of the new set.
     as_scored : bool
-        Whether scores are used as they are; else see :func:`evened` and :func:`straightened`.
+        Whether scores are used as they are; else see
+        :func:`~lipwright.character.unmixing.evening` and :func:`straightened`.
     progress : function, optional
         Called with the share that is done, 0..1.
 
@@ -208,7 +207,7 @@ def fit_set(
     CharacterError
         If none of their channels is a shape of the mouth.
     """
-    from lipwright.character.unmixing import unmixing
+    from lipwright.character.unmixing import evening, unmixing
     from lipwright.engines.bigram import load_set
     from lipwright.engines.bigram.fit import FaceTake, fit_set
 
@@ -229,7 +228,8 @@ def fit_set(
         columns = [channels.index(channel) for channel in way.channels]
         moves = [moved[:, columns] for moved in moves]
         if not as_scored:
-            moves = straightened(evened(moves), way.channels)
+            gains = evening(np.concatenate(moves))
+            moves = straightened([moved * gains for moved in moves], way.channels)
         moves = [way.weights(moved) for moved in moves]
         poses, alike = way.poses, way.alike
     faces = [
@@ -245,23 +245,6 @@ def fit_set(
         for take, moved in zip(takes, moves, strict=True)
     ]
     return fit_set(faces, of, name, alike=alike, progress=progress)
-
-
-def evened(takes: Sequence[Floats]) -> list[Floats]:
-    """Bring up shapes that a tracker scores far below what the face does.
-
-    Trackers from video score some shapes (mouthStretch, mouthFunnel) in hundredths where
-    the eye sees them clearly. A shape whose 99th percentile over all takes is below 0.3 is
-    multiplied to reach it, four times at most.
-
-    Parameters
-    ----------
-    takes : sequence of (T, C) float64
-        From rest.
-    """
-    high = np.percentile(np.concatenate(takes), 99, axis=0)
-    gains = np.clip(EVEN / np.maximum(high, 1e-9), 1.0, MOST)
-    return [values * gains for values in takes]
 
 
 def straightened(takes: Sequence[Floats], channels: Sequence[str]) -> list[Floats]:

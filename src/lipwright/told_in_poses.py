@@ -40,8 +40,6 @@ SILENT = 4000
 """Silent phones of a database that are looked at."""
 LOOKED_AT = 40_000
 """Frames of it that say how far its shapes go."""
-EVEN, MOST = 0.3, 4.0
-"""What weak scores of shapes are brought up to, and how many times at most."""
 
 
 class Telling(Protocol):
@@ -118,14 +116,13 @@ def by_shapes(database: Database, poses: tuple[str, ...]) -> ByShapes:
     CharacterError
         If no channel, or no pose, moves the lips.
     """
-    from lipwright.character.unmixing import unmixing
+    from lipwright.character.unmixing import evening, unmixing
 
     way = unmixing(database.channels, poses)
     columns = [database.channels.index(name) for name in way.channels]
     rest = rest_of(database)
     some = database.values[:: max(1, len(database.values) // LOOKED_AT)]
-    high = np.percentile(some[:, columns] - rest[columns], 99, axis=0)
-    return ByShapes(way, columns, rest, np.clip(EVEN / np.maximum(high, 1e-9), 1.0, MOST))
+    return ByShapes(way, columns, rest, evening(some[:, columns] - rest[columns]))
 
 
 def in_poses(animation: Animation, speech: Speech, of: BigramSet, telling: Telling) -> Animation:

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lipwright.errors import InputError
+from lipwright.markers import marker_labels
 
 Floats = NDArray[np.float64]
 
@@ -86,7 +87,7 @@ class MarkerLayout:
         variance : (K,) float64
         where : str
         """
-        labels = tuple(name.removesuffix(".x") for name in channels[::3])
+        labels = marker_labels(channels)
         places = (len(labels), 3)
         return cls(
             labels,

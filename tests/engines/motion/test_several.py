@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import sys
-from itertools import product
+from collections.abc import Sequence
+from itertools import pairwise, product
+from typing import Any
 
 import numpy as np
 import pytest
@@ -37,53 +39,29 @@ def arguments(held: Database, line: str, seed: int = 3) -> tuple[np.ndarray, ...
     return wanted_in(held, line), lengths, np.arange(len(held.labels)), sound
 
 
-def cheapest_of_all(held: Database, line: str) -> float:
-    """The least cost of any path, each added up from its own parts."""
+def phones_of(held: Database, line: str) -> list[Any]:
+    """The units that each phone of a line may have, with what each costs by itself."""
     wanted, lengths, classes, sound = arguments(held, line)
-    phones = [
-        module._phone(
-            held,
-            wanted.tolist(),
-            place,
-            float(lengths[place]),
-            classes,
-            sound,
-            unusual=module.UNUSUAL,
-            unsure=False,
-        )
+    how = {"unusual": module.UNUSUAL, "unsure": False}
+    return [
+        module._phone(held, wanted.tolist(), place, float(lengths[place]), classes, sound, **how)
         for place in range(len(line))
     ]
-    costs = []
-    for path in product(*(range(len(phone.units)) for phone in phones)):
-        cost = sum(float(phone.cost[at]) for phone, at in zip(phones, path, strict=True))
-        for place in range(1, len(path)):
-            left = phones[place - 1].units[[path[place - 1]]]
-            right = phones[place].units[[path[place]]]
-            cost += float(module._seams(held, left, right)[0, 0])
-        costs.append((cost, [int(p.units[a]) for p, a in zip(phones, path, strict=True)]))
-    return min(costs)[0]
 
 
-def cost_of(held: Database, line: str, units: list[int]) -> float:
-    """What one path costs."""
-    wanted, lengths, classes, sound = arguments(held, line)
+def cheapest_of_all(held: Database, line: str) -> float:
+    """The least cost of any path."""
+    phones = phones_of(held, line)
+    return min(cost_of(held, phones, path) for path in product(*(p.units for p in phones)))
+
+
+def cost_of(held: Database, phones: list[Any], path: Sequence[int]) -> float:
+    """What one path costs, added up from its own parts."""
     total = 0.0
-    for place, unit in enumerate(units):
-        phone = module._phone(
-            held,
-            wanted.tolist(),
-            place,
-            float(lengths[place]),
-            classes,
-            sound,
-            unusual=module.UNUSUAL,
-            unsure=False,
-        )
+    for phone, unit in zip(phones, path, strict=True):
         total += float(phone.cost[phone.units.tolist().index(unit)])
-        if place:
-            total += float(
-                module._seams(held, np.array([units[place - 1]]), np.array([unit]))[0, 0]
-            )
+    for left, right in pairwise(path):
+        total += float(module._seams(held, np.array([left]), np.array([right]))[0, 0])
     return total
 
 
@@ -92,7 +70,9 @@ def cost_of(held: Database, line: str, units: list[int]) -> float:
 def test_one_path_is_the_cheapest_of_all(words: list[str], line: str) -> None:
     held = database(*words)
     path = asked(held, line, 1)[0].tolist()
-    assert cost_of(held, line, path) == pytest.approx(cheapest_of_all(held, line), abs=1e-4)
+    assert cost_of(held, phones_of(held, line), path) == pytest.approx(
+        cheapest_of_all(held, line), abs=1e-4
+    )
 
 
 def test_several_paths_speak_the_line_with_other_units() -> None:

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lipwright.errors import InputError
+from lipwright.markers import marker_labels
 
 Floats = NDArray[np.float64]
 Kind = Literal["blendshapes", "markers"]
@@ -66,7 +67,7 @@ class Motion:
     @property
     def labels(self) -> tuple[str, ...]:
         """The names of the markers."""
-        return tuple(name.removesuffix(".x") for name in self.channels[::3])
+        return marker_labels(self.channels)
 
     @property
     def points(self) -> Floats:
