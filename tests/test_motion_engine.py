@@ -251,6 +251,8 @@ BAD = {
     "no such database": (["--engine", "motion", "--database", "none"], "none: no such folder"),
     "no database there": (["--engine", "motion", "--database", "."], "lipwright: "),
     "another engine": (["--database", "none"], "a motion database, with the bigram engine"),
+    "controls": (["--controls", "poses"], "controls or markers, with the bigram engine"),
+    "markers": (["--markers", "m.json"], "controls or markers, with the bigram engine"),
     "overrides": (
         ["--engine", "motion", "--database", "none", "--overrides", "mine.json"],
         "with the motion engine",

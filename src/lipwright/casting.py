@@ -137,6 +137,7 @@ def check_engine(
     database: str | Path | None,
     of_bigrams: Sequence[object],
     model: str | Path | None = None,
+    of_motion: Sequence[object] = (),
 ) -> None:
     """Refuse an engine that is unknown, lacks what it needs, or is given what it cannot use.
 
@@ -149,6 +150,11 @@ def check_engine(
     if engine != "motion" and database is not None:
         raise InputError(
             f"a motion database, with the {engine} engine", cure="choose the motion engine"
+        )
+    if engine != "motion" and any(given is not None for given in of_motion):
+        raise InputError(
+            f"controls or markers, with the {engine} engine",
+            cure="leave them out: they are the motion engine's",
         )
     if engine != "neural" and model is not None:
         raise InputError(

@@ -244,7 +244,7 @@ def animate(
     from lipwright.engines.bigram import read_edits
 
     of_bigrams = (overrides, reduction, edits, bigram_set if engine == "neural" else None)
-    check_engine(engine, database, of_bigrams, model)
+    check_engine(engine, database, of_bigrams, model, (controls, markers))
     shapes = choose(character, pictures, mapping, without=without, fps=fps, on=on, hold=hold)
     own: str | None = ""
     if engine == "motion":
