@@ -78,14 +78,16 @@ def test_the_picture_shows_it_and_the_page_plays(performance: Performance, tmp_p
             shares[label] = dark_share(page, (0.5, 0.55))
         assert shares["ɑː"] > shares["p"] + 0.05, shares
         page.at(0.0)
+        page.ask("lipwright.setLooping(true)")  # a busy machine draws few frames of one round
         page.ask("lipwright.play()")
-        morphs = [page.ask("lipwright.morphs().open")]
-        for _ in range(PATIENCE):  # a busy machine draws few frames
-            if page.ask("lipwright.time()") > 0.3 and max(morphs) > min(morphs) + 0.1:
+        morphs, times = [page.ask("lipwright.morphs().open")], [0.0]
+        for _ in range(PATIENCE):
+            if max(times) > 0.3 and max(morphs) > min(morphs) + 0.1:
                 break
             page.page.wait_for_timeout(1000 * PERIOD)
+            times.append(page.ask("lipwright.time()"))
             morphs.append(page.ask("lipwright.morphs().open"))
-        assert page.ask("lipwright.time()") > 0.3
+        assert max(times) > 0.3
         assert max(morphs) > min(morphs) + 0.1  # the mouth moves
         assert page.requests[1:] == [
             r for r in page.requests[1:] if r.startswith(("data:", "blob:"))
