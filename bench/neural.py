@@ -12,7 +12,8 @@ from bench.measure import milliseconds, say
 from bench.recordings import DATA
 from lipwright.animation import Animation
 from lipwright.engines.neural.engine import NeuralEngine
-from lipwright.engines.neural.training import Lesson, train
+from lipwright.engines.neural.lessons import Lesson
+from lipwright.engines.neural.training import train
 from lipwright.hearing import sound_alone
 from lipwright.sound import Sound
 

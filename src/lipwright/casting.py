@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from lipwright.engines.bigram import BigramEngine, BigramSet
     from lipwright.engines.motion.engine import MotionEngine
 
-ENGINES = ("bigram", "motion", "neural")
+ENGINES = ("bigram", "motion", "neural", "auto")
 DEFAULT_SET = "english"
 SETS_BY_LANGUAGE = {"cmn": "mandarin", "zh": "mandarin"}
 """Languages that have a set of their own, by their first part."""
@@ -156,16 +156,11 @@ def check_engine(
             f"controls or markers, with the {engine} engine",
             cure="leave them out: they are the motion engine's",
         )
-    if engine != "neural" and model is not None:
+    if engine not in ("neural", "auto") and model is not None:
         raise InputError(
             f"a neural model, with the {engine} engine", cure="choose the neural engine"
         )
-    if engine == "neural" and model is None:
-        raise InputError(
-            "the neural engine, without a model",
-            cure="name one with --model; 'lipwright neural train' makes it",
-        )
-    if engine != "bigram" and any(given is not None for given in of_bigrams):
+    if engine not in ("bigram", "auto") and any(given is not None for given in of_bigrams):
         raise InputError(
             f"{'a set, ' if engine == 'neural' else ''}overrides, a reduction or edits,"
             f" with the {engine} engine",

@@ -1,14 +1,15 @@
 """Sound alone: a line of which no words are known, and the net that animates it.
 
 Models are kept while their files stay as they are. The publication's five outputs are told
-in poses, which every character knows; other controls are played as they are named.
+in poses, which every character knows; other controls are played as they are named. Where the
+user leaves the engine to us, it is chosen here, by what is known of the line.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from lipwright.acting import Acted
 from lipwright.animation import Animation
@@ -25,6 +26,12 @@ if TYPE_CHECKING:
 
 UNLIKE = 0.3
 """Share of frames unlike the training from which on that is said."""
+QUIET = 0.05
+"""Share of frames in which the mouth moves, below which that is said."""
+SHOWN = 3
+"""Spells of doubt that are named."""
+DOUBTED, SURE = 0.4, 0.6
+"""Confidence of the net below which words are sought, and of words from which they are taken."""
 
 
 def sound_alone(sound: Sound | str | Path) -> Speech:
@@ -62,20 +69,28 @@ class _Kept:
 _engines: Kept[_Kept] = Kept(4)
 
 
-def neural_engine(model: str | Path) -> NeuralEngine:
-    """Return the engine for a model's file; made once, and anew when the file changes."""
-    return _engines.get(Path(model).absolute(), lambda: _made(str(model))).engine
+def neural_engine(model: str | Path | None = None) -> NeuralEngine:
+    """Return the engine for a model, ``"whole"`` where none is named.
+
+    It is made once, and anew when the model's file changes.
+    """
+    from lipwright.engines.neural.built_in import WHOLE, model_file
+
+    named = WHOLE if model is None else model
+    path = model_file(named)
+    name = str(named) if path != Path(named) else path.name
+    return _engines.get(path.absolute(), lambda: _made(str(path), name)).engine
 
 
-def _made(path: str) -> _Kept:
+def _made(path: str, name: str) -> _Kept:
+    from lipwright.engines.neural.built_in import load_model
     from lipwright.engines.neural.engine import NeuralEngine
-    from lipwright.engines.neural.model import read_model
 
     version = file_version(path)
-    return _Kept(NeuralEngine(read_model(path), Path(path).name), ((path, version),))
+    return _Kept(NeuralEngine(load_model(path), name), ((path, version),))
 
 
-def act_by_ear(speech: Speech, rate: float, model: str | Path) -> Acted:
+def act_by_ear(speech: Speech, rate: float, model: str | Path | None = None) -> Acted:
     """Return what a model makes of a line's sound, in controls for a character.
 
     Raises
@@ -86,15 +101,75 @@ def act_by_ear(speech: Speech, rate: float, model: str | Path) -> Acted:
         If the sound is silent or too short.
     """
     made = neural_engine(model).animate(speech, rate)
-    acted = Acted.as_it_is(_playable(made))
-    unlike = made.report["unlike_training"]
-    if unlike < UNLIKE:
-        return acted
-    note = (
-        f"{100 * unlike:.0f} % of it sounds like nothing in the model's training"
-        " (noise, another microphone): look at the result"
+    return replace(Acted.as_it_is(_playable(made)), note=_note(made.report))
+
+
+def _note(report: dict[str, Any]) -> str:
+    """Return what the user should know of an answer; mostly nothing."""
+    if report.get("unlike_training", 0.0) >= UNLIKE:
+        return (
+            f"{100 * report['unlike_training']:.0f} % of it sounds like nothing in the model's"
+            " training (noise, another microphone): look at the result"
+        )
+    if report.get("speaks", 1.0) < QUIET:
+        return f"the mouth rests {100 * (1 - report['speaks']):.0f} % of the time: is it speech?"
+    spells = report.get("unsure", [])
+    if not spells:
+        return ""
+    longest = sorted(spells, key=lambda spell: spell[0] - spell[1])[:SHOWN]
+    places = ", ".join(f"{start:.1f} to {end:.1f} s" for start, end in sorted(longest))
+    more = f" and {len(spells) - SHOWN} more" if len(spells) > SHOWN else ""
+    return f"the net is unsure at {places}{more}: look there first"
+
+
+def choose_engine(speech: Speech, model: str | Path | None = None) -> tuple[str, Speech, str]:
+    """Return the engine that suits a line, the line as that engine needs it, and why.
+
+    Known phones go to the bigram engine: they say when each closure is. Sound alone goes to
+    the net, which is as close to a face as recognised words are (``bench.neural``), in any
+    language and a hundred times as fast; but where the net doubts its own answer, the
+    recogniser is asked, and taken if it is surer.
+
+    Parameters
+    ----------
+    speech : Speech
+        :func:`sound_alone`, or with phones.
+    model : str or path, optional
+        For the net.
+    """
+    if len(speech.phones):
+        return "bigram", speech, "the bigram engine: the phones are known"
+    made = neural_engine(model).animate(speech)
+    sure = made.report.get("confidence", 1.0)
+    if sure >= DOUBTED:
+        return (
+            "neural",
+            speech,
+            f"the neural engine: no words are known, and it is sure ({sure:.2f})",
+        )
+    from lipwright.errors import LipwrightError
+    from lipwright.schedule.recognise import recognise
+
+    assert speech.sound is not None
+    try:
+        words = recognise(speech.sound)
+    except LipwrightError:
+        words = None
+    if words is None or (words.confidence or 0.0) < SURE:
+        return (
+            "neural",
+            speech,
+            (f"the neural engine: it is not sure ({sure:.2f}), but no words are recognised either"),
+        )
+    known = replace(words, notes=(*speech.notes, *words.notes))
+    return (
+        "bigram",
+        known,
+        (
+            f"the bigram engine: the net is not sure ({sure:.2f}), the recognised words are"
+            f" ({words.confidence:.2f})"
+        ),
     )
-    return replace(acted, note=note)
 
 
 def _playable(animation: Animation) -> Animation:

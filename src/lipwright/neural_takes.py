@@ -18,30 +18,36 @@ from lipwright.animation import Animation
 from lipwright.errors import InputError
 
 if TYPE_CHECKING:
+    from lipwright.engines.neural.live_model import LiveModel
     from lipwright.engines.neural.model import Model
 
 TimeIs = Literal["start", "middle"]
+Hears = Literal["whole", "live", "published"]
 
 
 def train_model(
     pairs: Sequence[tuple[str | Path, str | Path]],
     *,
+    hears: Hears = "whole",
     five: bool = False,
-    hidden: Sequence[int] = (18,),
+    hidden: Sequence[int] | None = None,
     seed: int = 0,
     time_is: TimeIs | None = None,
-) -> Model:
+) -> Model | LiveModel:
     """Learn a neural model from sounds and the animations that go with them.
 
     Parameters
     ----------
     pairs : sequence of (sound, animation)
         Files; see :func:`read_animation`.
+    hears : str
+        With which ears: ``"whole"`` or ``"live"``, those of the models that come with
+        Lipwright; or ``"published"``, Frank, Hoch and Trogemann's net, taught from nothing.
     five : bool
         Whether ARKit's shapes become the publication's five outputs (a, i, o/u, b/m/p,
         open) first.
-    hidden : sequence of int
-        Units of each hidden layer.
+    hidden : sequence of int, optional
+        Units of each hidden layer; 18 as published, else 64.
     seed : int
         The same gives the same model.
     time_is : str, optional
@@ -54,7 +60,11 @@ def train_model(
     MissingExtraError
         If the extra ``train`` is not installed.
     """
-    from lipwright.engines.neural.training import Lesson, train
+    from lipwright.engines.neural import teaching
+    from lipwright.engines.neural.built_in import live_model
+    from lipwright.engines.neural.lessons import Lesson
+    from lipwright.engines.neural.teaching import teach
+    from lipwright.engines.neural.training import HIDDEN, train
     from lipwright.sound_files import read_sound
 
     lessons, said = [], []
@@ -69,7 +79,11 @@ def train_model(
                 lessons, in_five([lesson.animation for lesson in lessons]), strict=True
             )
         ]
-    model = train(lessons, hidden=hidden, seed=seed)
+    if hears == "published":
+        model: Model | LiveModel = train(lessons, hidden=hidden or (HIDDEN,), seed=seed)
+    else:
+        ears = live_model(hears)
+        model = teach(lessons, ears, hidden=hidden or (teaching.HIDDEN,), seed=seed)
     model.about["notes"] = [*said, *model.about["notes"]]
     return model
 

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING
 from lipwright.acting import Acted, Acting, act
 from lipwright.casting import character_file, check_engine, engine_for, motion_engine
 from lipwright.errors import SoundError
-from lipwright.hearing import act_by_ear
+from lipwright.hearing import act_by_ear, choose_engine
 from lipwright.hearing import sound_alone as sound_alone
 from lipwright.measuring import evaluate_motion as evaluate_motion
 from lipwright.performance import Performance
@@ -191,8 +191,9 @@ def animate(
     speech : Speech
         From :func:`say`, :func:`align`, :func:`recognise`, :func:`hear` or :func:`from_labels`.
     engine : str
-        ``"bigram"``; ``"motion"``, which searches a ``database``; or ``"neural"``, which hears
-        the sound by a ``model`` and needs no phones.
+        ``"bigram"``; ``"motion"``, which searches a ``database``; ``"neural"``, which hears
+        the sound by a ``model`` and needs no phones; or ``"auto"``, which chooses between the
+        first and the last, and says why.
     bigram_set : str or path, optional
         A set that comes with Lipwright, or a file; else the character's, else English. With
         the motion engine: in whose poses its motion is told.
@@ -217,8 +218,9 @@ def animate(
     search : str
         How the motion engine searches: see
         :class:`~lipwright.engines.motion.engine.MotionEngine`.
-    model : path, optional
-        What the neural engine has learnt (:mod:`lipwright.neural_takes`).
+    model : str or path, optional
+        What the neural engine has learnt (:mod:`lipwright.neural_takes`), or one of the models
+        that come with Lipwright: ``"whole"``, which is the default, or ``"live"``.
     controls : str, optional
         What the motion engine gives: ``"recorded"``, the takes' own channels, or ``"poses"``,
         those of the set; what the character can play, where it is not given.
@@ -245,13 +247,16 @@ def animate(
 
     of_bigrams = (overrides, reduction, edits, bigram_set if engine == "neural" else None)
     check_engine(engine, database, of_bigrams, model, (controls, markers))
+    chosen = ""
+    if engine == "auto":
+        engine, speech, chosen = choose_engine(speech, model)
     shapes = choose(character, pictures, mapping, without=without, fps=fps, on=on, hold=hold)
     own: str | None = ""
     if engine == "motion":
         mover = motion_engine(database, search)
         how = Acting(character, mapping, controls, bigram_set, markers)
         acted = act(mover.animate(speech, rate), speech, mover.database, how)
-    elif model is not None:
+    elif engine == "neural":
         acted, own = act_by_ear(speech, rate, model), None
     else:
         made = engine_for(bigram_set, preset, overrides, reduction, character, speech.language)
@@ -263,7 +268,7 @@ def animate(
         shapes.check_controls(animation.controls)
         return Performance(animation, speech, shapes.no_model, cues, flat=True)
     actor = keep_character(character, mapping)
-    notes = [*speech.notes, *filter(None, [acted.note])]
+    notes = [*speech.notes, *filter(None, [chosen, acted.note])]
     if acted.rig is None and (not actor.fits or actor.bigram_set != own):
         notes += filter(None, [_check(actor, animation.controls)])
     named = replace(animation, report={**animation.report, "character": actor.report()})

@@ -22,7 +22,7 @@ from lipwright.schedule.say import say
 from lipwright.speech import Speech
 
 _TRIED = 8000  # words of the dictionary
-_SHORT = """
+SHORT = """
     the a of to and in is you that it he was for on are as with his they at be this have
     from or had by not but what all were we when your can said there an each which she
     do how their if will up other about out many then them these so some her would make
@@ -99,7 +99,7 @@ def _text(rng: np.random.Generator, words: list[str]) -> str:
     chosen = []
     for _ in range(int(rng.integers(5, 9))):
         if rng.random() < 0.45:
-            chosen.append(str(rng.choice(_SHORT.split())))
+            chosen.append(str(rng.choice(SHORT.split())))
         chosen.append(str(rng.choice(words)))
     if rng.random() < 0.3:
         chosen[len(chosen) // 2] += ","

@@ -21,22 +21,24 @@ def worsened(
     """
     faster = float(rng.uniform(0.85, 1.18))
     result = np.asarray(soxr.resample(samples, rate * faster, RATE), np.float64)
-    result = _equalised(result, rng)
+    result = equalised(result, rng)
     if rng.random() < 0.6:
-        result = _in_a_room(result, rng)
+        result = in_a_room(result, rng)
     result = result + _noise(result, rng)
     level = rng.uniform(0.05, 0.5) / np.abs(result).max()
     return (level * result).astype(np.float32), faster
 
 
-def _equalised(samples: NDArray[np.float64], rng: np.random.Generator) -> NDArray[np.float64]:
+def equalised(samples: NDArray[np.float64], rng: np.random.Generator) -> NDArray[np.float64]:
+    """Return a sound as another microphone would have it."""
     hertz = np.maximum(np.fft.rfftfreq(len(samples), 1 / RATE), 60.0)
     decibels = np.interp(np.log2(hertz / 60), _OCTAVES, rng.normal(0, 4, len(_OCTAVES)))
     decibels += rng.normal(0, 1.5) * np.log2(hertz / 1000)
     return np.fft.irfft(np.fft.rfft(samples) * 10 ** (decibels / 20), len(samples))
 
 
-def _in_a_room(samples: NDArray[np.float64], rng: np.random.Generator) -> NDArray[np.float64]:
+def in_a_room(samples: NDArray[np.float64], rng: np.random.Generator) -> NDArray[np.float64]:
+    """Return a sound with the echo of a room."""
     length = int(RATE * rng.uniform(0.05, 0.25))
     response = rng.normal(0, 1, length) * np.exp(-5 * np.arange(length) / length)
     response *= rng.uniform(0.05, 0.4) / np.sqrt(np.square(response).sum())

@@ -12,6 +12,7 @@ from lipwright.cli import options
 from lipwright.cli.report import note
 
 if TYPE_CHECKING:
+    from lipwright.engines.neural.live_model import LiveModel
     from lipwright.engines.neural.model import Model
 
 
@@ -27,12 +28,18 @@ def neural() -> None:
     help="The model's file.",
 )  # fmt: skip
 @click.option(
+    "--hears", type=click.Choice(["whole", "live", "published"]), default="whole",
+    show_default=True,
+    help="With which ears: those of a model that comes with Lipwright (live can stream), or the "
+    "publication's net, taught from nothing.",
+)  # fmt: skip
+@click.option(
     "--five", is_flag=True,
     help="Learn a, i, o/u, b/m/p and open, read off ARKit's shapes, instead of the controls.",
 )  # fmt: skip
 @click.option(
-    "--hidden", type=click.IntRange(1, 4096), multiple=True, default=(18,), show_default=True,
-    metavar="N", help="Hidden units; several times for several layers.",
+    "--hidden", type=click.IntRange(1, 4096), multiple=True, metavar="N",
+    help="Hidden units; several times for several layers.  [default: 64; 18 as published]",
 )  # fmt: skip
 @click.option("--seed", type=click.IntRange(0, 2**32 - 1), default=0, help="Of the first weights.")
 @click.option(
@@ -44,6 +51,7 @@ def neural() -> None:
 def train(
     files: tuple[str, ...],
     output: Path,
+    hears: Literal["whole", "live", "published"],
     five: bool,
     hidden: tuple[int, ...],
     seed: int,
@@ -64,8 +72,9 @@ def train(
     keep_inputs([str(output)], files)
     model = train_model(
         list(zip(files[::2], files[1::2], strict=True)),
+        hears=hears,
         five=five,
-        hidden=hidden,
+        hidden=hidden or None,
         seed=seed,
         time_is=time_is,
     )
@@ -78,24 +87,20 @@ def train(
 @options.as_json
 def info(model: Path, as_json: bool) -> None:
     """Say what a model hears, what it gives, and what it was trained on."""
-    from lipwright.engines.neural.model import read_model
+    from lipwright.engines.neural.built_in import load_model
 
-    _tell(read_model(model), str(model), as_json)
+    _tell(load_model(model), str(model), as_json)
 
 
-def _tell(model: Model, path: str, as_json: bool) -> None:
+def _tell(model: Model | LiveModel, path: str, as_json: bool) -> None:
+    facts = _facts(model, path)
     if as_json:
-        click.echo(json.dumps(_facts(model, path)))
+        click.echo(json.dumps(facts))
         return
-    about, hearing = model.about, model.hearing
-    net = "-".join(map(str, model.network.shape))
-    click.echo(f"{path}: {net}, {1 / hearing.frame:g} frames per second")
+    about = model.about
+    click.echo(f"{path}: {facts['net']}, {facts['frames_per_second']:g} frames per second")
     click.echo(f"  gives   {', '.join(model.controls)}")
-    click.echo(
-        f"  hears   {1000 * hearing.context:g} ms: {hearing.segments} segments of "
-        f"{1000 * hearing.segment:g} ms, {hearing.areas} areas from {hearing.lowest:g} to "
-        f"{hearing.highest:g} Hz ({hearing.scale})"
-    )
+    click.echo(f"  hears   {facts['hears']}")
     click.echo(
         f"  learnt  {about['seconds']:g} s from {_many(about['sounds'], 'sound')}; "
         f"off by {about['error']:.3f} on them (root mean square)"
@@ -104,13 +109,34 @@ def _tell(model: Model, path: str, as_json: bool) -> None:
         note(text)
 
 
-def _facts(model: Model, path: str) -> dict[str, Any]:
+def _facts(model: Model | LiveModel, path: str) -> dict[str, Any]:
+    from lipwright.engines.neural.live_model import LiveModel
+
+    own = _of_live(model) if isinstance(model, LiveModel) else _as_published(model)
+    return {"file": path, "controls": list(model.controls), **own, **model.about}
+
+
+def _as_published(model: Model) -> dict[str, Any]:
+    hearing = model.hearing
     return {
-        "file": path,
-        "net": list(model.network.shape),
-        "controls": list(model.controls),
-        "frames_per_second": 1 / model.hearing.frame,
-        **model.about,
+        "net": "-".join(map(str, model.network.shape)),
+        "frames_per_second": 1 / hearing.frame,
+        "hears": f"{1000 * hearing.context:g} ms: {hearing.segments} segments of "
+        f"{1000 * hearing.segment:g} ms, {hearing.areas} areas from {hearing.lowest:g} to "
+        f"{hearing.highest:g} Hz ({hearing.scale})",
+    }
+
+
+def _of_live(model: LiveModel) -> dict[str, Any]:
+    from lipwright.engines.neural.live_model import FRAME
+
+    before = (model.net.reach - model.instants[0]) * FRAME
+    way = "recordings" if model.both_ways else "recordings and streams"
+    return {
+        "net": model.shape,
+        "frames_per_second": 1 / FRAME,
+        "hears": f"{way}: {before:.2f} s before a frame and {1000 * model.latency:g} ms after it",
+        "latency": round(model.latency + FRAME, 4),
     }
 
 

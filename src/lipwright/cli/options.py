@@ -33,8 +33,8 @@ def outputs(help: str) -> Callable[[Command], Command]:
 
 animation = stack(
     click.option(
-        "--engine", type=click.Choice(["bigram", "motion", "neural"]), default="bigram",
-        show_default=True, help="What drives the mouth.",
+        "--engine", type=click.Choice(["bigram", "motion", "neural", "auto"]), default="bigram",
+        show_default=True, help="What drives the mouth; auto chooses bigram or neural.",
     ),
     click.option(
         "--database", type=click.Path(path_type=Path), metavar="DB",
@@ -48,8 +48,9 @@ animation = stack(
         "fewest jumps (optimal), or one path.",
     ),
     click.option(
-        "--model", type=click.Path(path_type=Path), metavar="MODEL",
-        help="What the neural engine has learnt, see 'neural train'.",
+        "--model", metavar="MODEL",
+        help="What the neural engine has learnt: a file, see 'neural train', or whole or live, "
+        "which come with Lipwright.  [default: whole]",
     ),
     click.option(
         "--controls", type=click.Choice(["recorded", "poses"]),

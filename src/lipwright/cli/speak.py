@@ -131,10 +131,11 @@ def animate(
 
     With --text its words are put in time, in any --language; with --labels phone times are
     taken as they are; with neither the words are recognised (English), or with --by-ear
-    phones are heard without words, in any language. The neural engine needs neither.
+    phones are heard without words, in any language. The neural engine needs neither, nor
+    does auto.
     """
     _check(outputs, how, *recording.files)
-    speech = _speech(recording, by_sound=how["engine"] == "neural")
+    speech = _speech(recording, by_sound=how["engine"] in ("neural", "auto"))
     _animate(speech, outputs, as_json, how, Path(recording.sound).name)
 
 

@@ -11,8 +11,9 @@ import pytest
 
 from lipwright.animation import Animation
 from lipwright.engines.neural.engine import NeuralEngine, smooth
+from lipwright.engines.neural.lessons import Lesson
 from lipwright.engines.neural.model import Model, read_model
-from lipwright.engines.neural.training import Lesson, train
+from lipwright.engines.neural.training import train
 from lipwright.errors import FileFormatError, InputError, MissingExtraError
 from lipwright.phones import PhoneTrack
 from lipwright.sound import Sound

@@ -1,20 +1,27 @@
-"""The neural engine: sound in, a model's controls out (Frank, Hoch, Trogemann).
+"""The neural engine: sound in, a model's controls out.
 
-The net answers 25 times a second, as published. Between its frames a cubic runs that
-neither overshoots nor has corners (Fritsch and Butland 1984), so that any rate can be had.
-Words and phones are handed on where the line has them; the net needs none.
+A model of the publication's kind (Frank, Hoch, Trogemann) answers 25 times a second, a live
+model fifty times. Between frames a cubic runs that neither overshoots nor has corners
+(Fritsch and Butland 1984), so that any rate can be had. Words and phones are handed on where
+the line has them; the net needs none.
 """
 
 from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from lipwright.animation import Animation
 from lipwright.curves import reduced
-from lipwright.engines.neural.features import features, frame_times
+from lipwright.engines.neural.features import check_audible, features, frame_times
+from lipwright.engines.neural.live_model import FRAME, LiveModel
 from lipwright.engines.neural.model import Model
+from lipwright.engines.neural.stream import hear_all
 from lipwright.errors import InputError
+from lipwright.sound import Sound
 from lipwright.speech import Speech
 
 Floats = NDArray[np.float64]
@@ -22,6 +29,29 @@ Floats = NDArray[np.float64]
 FASTEST = 10_000.0
 TOLERANCE = 0.02
 """By how much keys may be off, in weights."""
+UNSURE = 0.2
+"""A live model is unsure where the opening may be off by this share of its range."""
+LONGEST_SPELL = 0.2
+"""Seconds: spells of doubt that are shorter are not told, and shorter gaps between them closed."""
+MOVES = 0.05
+"""A frame in which no control exceeds this is one of rest."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Answer:
+    """What a model says of a sound, at its own frames.
+
+    Parameters
+    ----------
+    times : (T,) float64
+    values : (T, K) float64
+    facts : dict
+        For the report.
+    """
+
+    times: Floats
+    values: Floats
+    facts: dict[str, Any]
 
 
 class NeuralEngine:
@@ -29,12 +59,12 @@ class NeuralEngine:
 
     Parameters
     ----------
-    model : Model
+    model : Model or LiveModel
     name : str
         What reports call it.
     """
 
-    def __init__(self, model: Model, name: str = "") -> None:
+    def __init__(self, model: Model | LiveModel, name: str = "") -> None:
         self.model = model
         self.name = name
 
@@ -52,8 +82,11 @@ class NeuralEngine:
         -------
         Animation
             Of the model's controls, from 0 to the end of the sound, with keys: every frame
-            of the net lies within 0.02 of their curves. The report's ``unlike_training`` is the
-            share of frames that sound like nothing in the training.
+            of the net lies within 0.02 of their curves. The report of a model of the
+            publication's kind has ``unlike_training``, the share of frames that sound like
+            nothing in the training; that of a live model ``confidence`` (0..1), ``unsure``
+            (where it is: pairs of seconds) and ``speaks`` (share of frames in which the mouth
+            moves).
 
         Raises
         ------
@@ -69,29 +102,67 @@ class NeuralEngine:
                 "no sound: the neural engine hears, it reads no phones",
                 cure="give the recording too, or choose another engine",
             )
-        heard = features(speech.sound, self.model.hearing)
-        given = self.model.outputs(heard)
-        own = frame_times(speech.sound, self.model.hearing)
+        model = self.model
+        say = said_live if isinstance(model, LiveModel) else said
+        answer = say(model, speech.sound)  # type: ignore[arg-type]
         times = np.arange(int(speech.sound.duration * rate + 1e-9) + 1) / rate
-        values = np.clip(smooth(own, given, times), self.model.low, self.model.high)
+        values = np.clip(smooth(answer.times, answer.values, times), model.low, model.high)
         keys = {
-            name: reduced(own, column, TOLERANCE)
-            for name, column in zip(self.model.controls, given.T, strict=True)
+            name: reduced(answer.times, column, TOLERANCE)
+            for name, column in zip(model.controls, answer.values.T, strict=True)
         }
         return Animation(
-            self.model.controls,
+            model.controls,
             values.astype(np.float32),
             rate,
             keys=keys,
             phones=speech.phones,
             words=speech.words,
             engine="neural",
-            report={
-                "model": self.name,
-                "net": "-".join(map(str, self.model.network.shape)),
-                "unlike_training": round(self.model.strange(heard), 4),
-            },
+            report={"model": self.name, **answer.facts},
         )
+
+
+def said(model: Model, sound: Sound) -> Answer:
+    """Return what a model of the publication's kind makes of a sound."""
+    heard = features(sound, model.hearing)
+    facts = {
+        "net": "-".join(map(str, model.network.shape)),
+        "unlike_training": round(model.strange(heard), 4),
+    }
+    return Answer(frame_times(sound, model.hearing), model.outputs(heard), facts)
+
+
+def said_live(model: LiveModel, sound: Sound) -> Answer:
+    """Return what a live model makes of a sound; as a stream would, where it can stream."""
+    check_audible(sound)
+    frames = hear_all(sound.samples, sound.rate, model)
+    values = frames.values.astype(np.float64)
+    facts = {
+        "net": model.shape,
+        "confidence": round(float(1.0 - np.minimum(frames.doubt / UNSURE, 2.0).mean() / 2.0), 4),
+        "unsure": spells(frames.doubt > UNSURE),
+        "speaks": round(float((values > MOVES).any(axis=1).mean()), 4),
+    }
+    return Answer(frames.times, values, facts)
+
+
+def spells(unsure: NDArray[np.bool_]) -> list[list[float]]:
+    """Return where frames are unsure for a while: pairs of seconds.
+
+    Examples
+    --------
+    >>> spells(np.arange(50) // 15 == 1)
+    [[0.3, 0.6]]
+    """
+    edges = np.flatnonzero(np.diff(np.r_[False, unsure, False]))
+    found: list[list[float]] = []
+    for start, end in edges.reshape(-1, 2) * FRAME:
+        if found and start - found[-1][1] < LONGEST_SPELL:
+            found[-1][1] = round(float(end), 3)
+        else:
+            found.append([round(float(start), 3), round(float(end), 3)])
+    return [spell for spell in found if spell[1] - spell[0] >= LONGEST_SPELL]
 
 
 def smooth(times: Floats, values: Floats, at: Floats) -> Floats:

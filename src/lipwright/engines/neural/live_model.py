@@ -1,0 +1,353 @@
+"""A live model: how it hears, its convolutions, its last layers; and its file.
+
+It answers fifty times a second: frame ``j`` is the instant ``0.02 j`` s, for which it hears
+what was said before and :attr:`LiveModel.latency` more. The file is JSON,
+``"format": "lipwright/live-model"``; each layer is a line of base64, for nobody edits weights:
+whole numbers of 16 or 32 bits, little endian, in units of 2⁻¹². A file that is cut short, of
+another version, or whose parts do not fit each other is refused.
+"""
+
+from __future__ import annotations
+
+import base64
+import binascii
+import json
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import msgspec
+import numpy as np
+from numpy.typing import NDArray
+
+from lipwright.engines.neural import mel
+from lipwright.engines.neural.convolution import (
+    WEIGHT_STEP,
+    WIDEST,
+    Affine,
+    Block,
+    Convolutions,
+    applied,
+    on_grid,
+)
+from lipwright.engines.neural.network import logistic
+from lipwright.errors import FileFormatError
+from lipwright.files import convert, quote, read_document, write_atomically
+
+FORMAT, VERSION = "lipwright/live-model", 1
+FRAME = 0.02
+"""Seconds from frame to frame."""
+STACKED = 4
+"""Mel frames that the first layer hears at once; the newest two are new."""
+MOST_AHEAD = 100
+GREATEST = 128.0
+"""A weight lies within ± this, so that sums stay exact."""
+Floats = NDArray[np.float64]
+
+
+class Closing(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """What a closed mouth does to the controls.
+
+    Parameters
+    ----------
+    control : str
+        Which goes to 1.
+    leaves : dict of str to float
+        The share of others that is left.
+    doubted, sure : float
+        How likely a closure must be, 0..1, to begin to be shown, and to be shown whole.
+    """
+
+    control: str
+    leaves: dict[str, float]
+    doubted: float
+    sure: float
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class LiveModel:
+    """What a stream and the engine need.
+
+    Parameters
+    ----------
+    controls : tuple of str
+        K names.
+    low, high : (K,) float64
+        What each is clipped to.
+    net : Convolutions
+    ahead : int
+        Frames that are heard beyond the one that is answered.
+    both_ways : bool
+        Whether the loudness is that of the whole recording: such a model cannot stream.
+    instants : tuple of int
+        Frames, 0 or before, of which the last layers take what the convolutions make.
+    layers : tuple of Affine
+        The last layers; logistic units between them.
+    logistic : bool
+        Whether the outputs are logistic too; else they are linear.
+    doubt : Affine
+        ``C`` to 1: the logarithm of how far off the opening may be, as a share of its range.
+    closed : Affine, optional
+        ``C`` to 1: whether the lips are closed, before the logistic.
+    closing : Closing, optional
+        What follows from that.
+    about : dict
+        What it was trained on, how, and how well that went.
+    """
+
+    controls: tuple[str, ...]
+    low: Floats
+    high: Floats
+    net: Convolutions
+    ahead: int
+    both_ways: bool
+    instants: tuple[int, ...]
+    layers: tuple[Affine, ...]
+    logistic: bool
+    doubt: Affine
+    closed: Affine | None = None
+    closing: Closing | None = None
+    about: dict[str, Any] = field(default_factory=dict)
+
+    @property
+    def latency(self) -> float:
+        """Seconds of sound after a frame's instant that must be heard before it is answered."""
+        return self.ahead * FRAME + (mel.WINDOW - mel.HOP) / mel.RATE
+
+    @property
+    def shape(self) -> str:
+        """The net in short: ``"160-96 x 6-9"``: inputs, units and blocks, then each layer."""
+        inputs = len(self.net.first.weights)
+        sizes = [f"{inputs}-{self.net.units} x {len(self.net.blocks)}"]
+        return "-".join([*sizes, *(str(len(layer.bias)) for layer in self.layers)])
+
+    def answered(self, made: Floats, past: Floats) -> tuple[Floats, Floats]:
+        """Return the controls and the doubt for what the convolutions made.
+
+        Parameters
+        ----------
+        made : (T, C) float64
+        past : (-instants[0], C) float64
+            What they made before.
+
+        Returns
+        -------
+        values : (T, K) float64
+        doubt : (T,) float64
+            How far off the opening may be, as a share of its range.
+        """
+        known = np.concatenate([past, made])
+        first = len(past)
+        values = np.concatenate(
+            [known[first + back : first + back + len(made)] for back in self.instants], axis=1
+        )
+        for number, layer in enumerate(self.layers, 1):
+            values = applied(layer, values)
+            if number < len(self.layers):
+                values = on_grid(logistic(values))
+        values = np.clip(logistic(values) if self.logistic else values, self.low, self.high)
+        doubt = np.exp(np.minimum(applied(self.doubt, made)[:, 0], 0.0))
+        if self.closed is not None and self.closing is not None:
+            values = self._closed(values, logistic(applied(self.closed, made)[:, 0]))
+        return values, doubt
+
+    def _closed(self, values: Floats, likely: Floats) -> Floats:
+        """Close the lips where a closure is likely."""
+        closing = self.closing
+        assert closing is not None
+        share = np.clip((likely - closing.doubted) / (closing.sure - closing.doubted), 0.0, 1.0)
+        share = share * share * (3.0 - 2.0 * share)
+        shut = values.copy()
+        for name, left in closing.leaves.items():
+            shut[:, self.controls.index(name)] *= 1.0 - (1.0 - left) * share
+        place = self.controls.index(closing.control)
+        shut[:, place] = np.maximum(shut[:, place], share)
+        return shut
+
+    def to_bytes(self) -> bytes:
+        """Return the content of the model's file."""
+        named: list[tuple[str, Any]] = [
+            ("controls", list(self.controls)),
+            ("low", self.low.tolist()),
+            ("high", self.high.tolist()),
+            ("ahead", self.ahead),
+            ("both_ways", self.both_ways),
+            ("instants", list(self.instants)),
+            ("logistic", self.logistic),
+            ("closing", msgspec.to_builtins(self.closing)),
+            ("about", self.about),
+        ]
+        rows = [f'"format": {quote(FORMAT)}', f'"version": {VERSION}']
+        rows += [
+            f'"{name}": {json.dumps(value, ensure_ascii=False, allow_nan=False)}'
+            for name, value in named
+        ]
+        rows.append(f'"first": {_written(self.net.first)}')
+        blocks = ",\n  ".join(
+            f'{{"dilation": {block.dilation}, "taps": {_written(block.taps)},\n'
+            f'   "back": {_written(block.back)}}}'
+            for block in self.net.blocks
+        )
+        rows.append(f'"blocks": [\n  {blocks}\n ]')
+        layers = ",\n  ".join(map(_written, self.layers))
+        rows.append(f'"layers": [\n  {layers}\n ]')
+        rows.append(f'"doubt": {_written(self.doubt)}')
+        rows.append(f'"closed": {_written(self.closed) if self.closed else "null"}')
+        return ("{\n " + ",\n ".join(rows) + "\n}\n").encode()
+
+    def save(self, path: str | Path) -> None:
+        """Write the model's file.
+
+        Raises
+        ------
+        OutputError
+            If it cannot be written.
+        """
+        write_atomically(path, self.to_bytes())
+
+
+def read_live_model(path: str | Path) -> LiveModel:
+    """Return the live model in a file.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read.
+    FileFormatError
+        If it is no live model, of another version, cut short, or its parts do not fit.
+    """
+    where = str(path)
+    read = convert(read_document(path, format=FORMAT, version=VERSION), _Document, where)
+    units = read.first.units
+    blocks = tuple(
+        Block(
+            block.dilation,
+            _layer(block.taps, f"{where}, block {number}", units, 3 * units),
+            _layer(block.back, f"{where}, block {number}", units, units),
+        )
+        for number, block in enumerate(read.blocks, 1)
+    )
+    net = Convolutions(_layer(read.first, where, units, STACKED * mel.BANDS), blocks)
+    _check(read, where)
+    layers, width = [], len(read.instants) * units
+    for number, layer in enumerate(read.layers, 1):
+        layers.append(_layer(layer, f"{where}, layer {number}", layer.units, width))
+        width = layer.units
+    if width != len(read.controls):
+        raise _unfit(f"{width} outputs", where, f"{len(read.controls)}")
+    closed = _layer(read.closed, f"{where}, at closed", 1, units) if read.closed else None
+    return LiveModel(
+        tuple(read.controls),
+        np.array(read.low, np.float64),
+        np.array(read.high, np.float64),
+        net,
+        read.ahead,
+        read.both_ways,
+        tuple(read.instants),
+        tuple(layers),
+        read.logistic,
+        _layer(read.doubt, f"{where}, at doubt", 1, units),
+        closed,
+        read.closing,
+        read.about,
+    )
+
+
+class _Written(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    inputs: int
+    units: int
+    bits: int
+    weights: str
+    bias: str
+
+
+class _Block(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    dilation: int
+    taps: _Written
+    back: _Written
+
+
+class _Document(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    version: int
+    controls: list[str]
+    low: list[float]
+    high: list[float]
+    ahead: int
+    both_ways: bool
+    instants: list[int]
+    logistic: bool
+    closing: Closing | None
+    about: dict[str, Any]
+    first: _Written
+    blocks: list[_Block]
+    layers: list[_Written]
+    doubt: _Written
+    closed: _Written | None
+
+
+def _check(read: _Document, where: str) -> None:
+    """Refuse parts that do not fit each other."""
+    count = len(read.controls)
+    if not count or len(set(read.controls)) != count:
+        raise _unfit("controls of the same name, or none", where, "names that differ")
+    if len(read.low) != count or len(read.high) != count:
+        raise _unfit("another number of ranges than of controls", where, f"{count}")
+    if (np.array(read.low) > np.array(read.high)).any():
+        raise _unfit("a range that is none", where, "low below high")
+    if not 0 <= read.ahead <= MOST_AHEAD:
+        raise _unfit(f"{read.ahead} frames ahead", where, f"0 to {MOST_AHEAD}")
+    instants = read.instants
+    if not instants or instants[-1] != 0 or sorted(set(instants)) != instants:
+        raise _unfit(f"the instants {instants}", where, "rising numbers, the last of them 0")
+    if instants[0] < -MOST_AHEAD or not read.layers:
+        raise _unfit("no layers, or instants too far back", where, f"{-MOST_AHEAD} at most")
+    if any(not 1 <= block.dilation <= 4096 for block in read.blocks):
+        raise _unfit("a dilation that cannot be", where, "1 to 4096 frames")
+    closing = read.closing
+    if closing is None:
+        return
+    named = {closing.control, *closing.leaves}
+    if not named <= set(read.controls) or not 0 <= closing.doubted < closing.sure <= 1:
+        raise _unfit("a closing that does not fit the controls", where, "names of controls")
+
+
+def _written(layer: Affine) -> str:
+    parts = [np.rint(part / WEIGHT_STEP) for part in (layer.weights, layer.bias)]
+    bits = 16 if max(np.abs(part).max(initial=0.0) for part in parts) < 2**15 else 32
+    weights, bias = (
+        base64.b64encode(part.astype(f"<i{bits // 8}").tobytes()).decode() for part in parts
+    )
+    count, units = layer.weights.shape
+    return (
+        f'{{"inputs": {count}, "units": {units}, "bits": {bits},'
+        f' "weights": "{weights}", "bias": "{bias}"}}'
+    )
+
+
+def _layer(read: _Written, where: str, units: int, inputs: int) -> Affine:
+    """Return a layer, which must have so many units and inputs."""
+    if (read.inputs, read.units) != (inputs, units) or not 1 <= inputs <= WIDEST or units < 1:
+        raise _unfit(f"{read.inputs} x {read.units} weights", where, f"{inputs} x {units}")
+    if read.bits not in (16, 32):
+        raise _unfit(f"weights of {read.bits} bits", where, "16 or 32")
+    weights = _numbers(read.weights, read.bits, inputs * units, where)
+    bias = _numbers(read.bias, read.bits, units, where)
+    return Affine(weights.reshape(inputs, units), bias)
+
+
+def _numbers(text: str, bits: int, count: int, where: str) -> Floats:
+    try:
+        data = base64.b64decode(text, validate=True)
+    except (binascii.Error, ValueError):
+        raise _unfit("weights that are no base64", where, "a trained net") from None
+    if len(data) * 8 != count * bits:
+        raise _unfit(f"{len(data)} bytes of weights", where, f"{count * bits // 8}")
+    values = np.frombuffer(data, f"<i{bits // 8}").astype(np.float64) * WEIGHT_STEP
+    if np.abs(values).max(initial=0.0) > GREATEST:
+        raise _unfit("weights beyond what sums can hold", where, f"within ± {GREATEST:g}")
+    return values
+
+
+def _unfit(found: str, where: str, expected: str) -> FileFormatError:
+    cure = "the model is damaged: train it again"
+    return FileFormatError(found, where=where, expected=expected, cure=cure)

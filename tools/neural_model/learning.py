@@ -1,0 +1,153 @@
+"""How a net learns: what it is shown, what it is told, and what counts as wrong."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import torch
+from numpy.typing import NDArray
+from torch import Tensor, nn
+from torch.nn import functional
+
+from lipwright.engines.neural import mel
+from tools.neural_model.hearing import Heard
+from tools.neural_model.net import Net, Shape
+from tools.neural_model.spoken import CLASSES
+
+BATCH, SECONDS = 32, 5.0
+WARMING = 40
+"""Frames at the start of each stretch that are not judged: the net has no past there."""
+RATE, DECAY, CLIP = 2e-3, 0.01, 1.0
+POSES = ("open", "W", "wide", "ShCh", "FV", "PBM", "tBack", "tRoof", "tTeeth")
+_POSE = torch.tensor([1.0, 0.8, 0.6, 0.7, 0.7, 0.8, 0.15, 0.15, 0.15])
+"""What each pose counts: what is seen of the tongue is little."""
+_OPENS = torch.tensor([1.95, 0.0, 0.21, 0.39, 0.27, 0.0, 0.0, 0.0, 0.0])
+"""By how much each pose opens the built-in head's lips, as a share of the opening's range."""
+_CLOSED = 0.85
+"""PBM from which on lips are closed."""
+_MISSED = 2.0
+"""A closure that is missed counts for so many that are made up."""
+_LIKELY = (-50.0, -20.0)
+"""dB: how loud a speaker is taken to be at the start of a sound."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Lessons:
+    """All that is heard and seen, in one row.
+
+    Parameters
+    ----------
+    bands : (T, 40) float16
+        As the net hears them.
+    poses : (T, P) float16
+    classes : (T,) int8
+    """
+
+    bands: NDArray[np.float16]
+    poses: NDArray[np.float16]
+    classes: NDArray[np.int8]
+
+
+def lessons_of(heard: Sequence[Heard], shape: Shape, rng: np.random.Generator) -> Lessons:
+    """Return what a net of a shape hears of lines."""
+    return Lessons(
+        np.concatenate([_bands(one, shape, rng) for one in heard]),
+        np.concatenate([one.poses for one in heard]),
+        np.concatenate([one.classes for one in heard]),
+    )
+
+
+def _bands(heard: Heard, shape: Shape, rng: np.random.Generator) -> NDArray[np.float16]:
+    found = np.empty(heard.powers.shape, np.float16)
+    start = 0
+    for length in heard.lengths.tolist():
+        power = np.exp(heard.powers[start : start + length].astype(np.float64))
+        loud = mel.loudness(power)
+        if shape.both_ways:
+            level = mel.settled(loud)
+        else:  # the start of a sound, or the middle of one
+            known = float(loud.max()) + rng.uniform(-8, 6)
+            level = mel.followed(loud, rng.uniform(*_LIKELY) if rng.random() < 0.5 else known)
+        found[start : start + length] = mel.told(power, level)
+        start += length
+    return found
+
+
+def learn(lessons: Lessons, shape: Shape, *, steps: int, seed: int) -> Net:
+    """Return a net that has learnt."""
+    torch.manual_seed(seed)
+    net = Net(shape, len(POSES), len(CLASSES))
+    optimiser = torch.optim.AdamW(net.parameters(), lr=RATE, weight_decay=DECAY)
+    rates = torch.optim.lr_scheduler.OneCycleLR(optimiser, RATE, total_steps=steps, pct_start=0.1)
+    seen = stretches(lessons, shape, np.random.default_rng(seed))
+    mean = 0.0
+    for step, (bands, poses, classes) in zip(range(1, steps + 1), seen, strict=False):
+        loss = wrong(net(bands)[:, shape.ahead :], poses, classes)
+        optimiser.zero_grad()
+        torch.autograd.backward(loss)
+        nn.utils.clip_grad_norm_(net.parameters(), CLIP)
+        optimiser.step()
+        rates.step()
+        mean += 0.01 * (float(loss) - mean)
+        if step % 100 == 0:
+            print(f"  step {step} of {steps}: {mean:.4f}", file=sys.stderr, flush=True)
+    return net.eval()
+
+
+def stretches(
+    lessons: Lessons, shape: Shape, rng: np.random.Generator
+) -> Iterator[tuple[Tensor, Tensor, Tensor]]:
+    """Return, without end, stretches of some seconds: bands, poses, classes.
+
+    Bands before each stretch make up what the first frame stacks; some are hidden or raised,
+    so that no band alone decides.
+    """
+    frames = int(SECONDS * 50)
+    span = 2 * (frames + shape.ahead) + 2
+    while True:
+        starts = 2 * rng.integers(2, (len(lessons.bands) - span) // 2, BATCH)
+        bands = np.stack([lessons.bands[s - 4 : s - 4 + span] for s in starts]).astype(np.float32)
+        poses = np.stack([lessons.poses[s : s + 2 * frames : 2] for s in starts])
+        classes = np.stack([lessons.classes[s : s + 2 * frames : 2] for s in starts])
+        bands += rng.normal(0, 0.03, (BATCH, 1, 1)) + rng.normal(0, 0.04, (BATCH, 1, mel.BANDS))
+        for row in np.flatnonzero(rng.random(BATCH) < 0.5):
+            first, wide = int(rng.integers(mel.BANDS - 6)), int(rng.integers(1, 7))
+            bands[row, :, first : first + wide] = 0.0
+        yield (
+            torch.from_numpy(bands),
+            torch.from_numpy(poses.astype(np.float32)),
+            torch.from_numpy(classes.astype(np.int64)),
+        )
+
+
+def wrong(outputs: Tensor, poses: Tensor, classes: Tensor) -> Tensor:
+    """Return how wrong a net is: poses, opening, closures, classes, and its own doubt.
+
+    Parameters
+    ----------
+    outputs : (B, T, O)
+    poses : (B, T, P)
+    classes : (B, T)
+    """
+    count = len(POSES)
+    outputs, poses, classes = (one[:, WARMING:] for one in (outputs, poses, classes))
+    found = torch.sigmoid(outputs[..., :count])
+    apart = found @ _OPENS - poses @ _OPENS
+    shut = (poses[..., POSES.index("PBM")] > _CLOSED).float()
+    closures = functional.binary_cross_entropy_with_logits(
+        outputs[..., count], shut, pos_weight=torch.tensor(_MISSED)
+    )
+    said = outputs[..., count + 1 : -1]
+    named = functional.cross_entropy(said.reshape(-1, said.shape[-1]), classes.reshape(-1))
+    doubt = functional.l1_loss(outputs[..., -1], torch.log(apart.abs().detach() + 0.02))
+    total: Tensor = (
+        4.0 * (_POSE * (found - poses) ** 2).mean()
+        + 2.0 * (apart**2).mean()
+        + 0.15 * closures
+        + 0.1 * named
+        + 0.02 * doubt
+    )
+    return total
