@@ -33,6 +33,7 @@ MEASURES = (
     "motion_capture",
     "motion_skin",
     "neural",
+    "neural_live",
 )
 
 

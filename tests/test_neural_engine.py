@@ -1,4 +1,4 @@
-"""The neural engine from end to end: speech, its animation, a model, a line nobody labelled."""
+"""The publication's net from end to end: speech, its animation, a model, a line without words."""
 
 from __future__ import annotations
 
@@ -29,7 +29,8 @@ def taught(tmp_path_factory: pytest.TempPathFactory) -> Path:
     performance = pipeline.animate(pipeline.say(TAUGHT), rate=30)
     pipeline.save(performance, *(folder / f"line.{suffix}" for suffix in ("json", "csv", "wav")))
     sound = str(folder / "line.wav")
-    assert main(["neural", "train", sound, str(folder / "line.json"), "-o", str(folder / "m")]) == 0
+    teach = ["neural", "train", sound, str(folder / "line.json"), "--hears", "published"]
+    assert main([*teach, "-o", str(folder / "m")]) == 0
     return folder
 
 
@@ -80,7 +81,8 @@ def test_a_table_teaches_what_the_lossless_file_does(taught: Path) -> None:
 
 def test_the_same_files_give_the_same_model(taught: Path, tmp_path: Path) -> None:
     files = [str(taught / "line.wav"), str(taught / "line.json")]
-    assert main(["neural", "train", *files, "-o", str(tmp_path / "again")]) == 0
+    published = ["--hears", "published"]
+    assert main(["neural", "train", *files, *published, "-o", str(tmp_path / "again")]) == 0
     assert (tmp_path / "again").read_bytes() == (taught / "m").read_bytes()
 
 
@@ -91,7 +93,8 @@ def test_the_five_are_learnt_from_a_face_and_played_by_any_character(
     face = shapes(drawn)
     values = np.stack(list(face.values()), axis=1)
     Animation(tuple(face), values, drawn.rate, drawn.start).save(tmp_path / "face.json")
-    model = train_model([(taught / "line.wav", tmp_path / "face.json")], five=True, hidden=(8,))
+    pair = (taught / "line.wav", tmp_path / "face.json")
+    model = train_model([pair], hears="published", five=True, hidden=(8,))
     model.save(tmp_path / "five")
     assert model.controls == ("a", "i", "o/u", "b/m/p", "open")
     speech = pipeline.sound_alone(unseen)
@@ -118,7 +121,8 @@ def test_a_model_is_read_anew_when_its_file_changes(taught: Path, tmp_path: Path
     path.write_bytes((taught / "m").read_bytes())
     sound = pipeline.sound_alone(taught / "line.wav")
     assert pipeline.animate(sound, engine="neural", model=path).animation.controls[0] == "open"
-    train_model([(taught / "line.wav", taught / "line.json")], hidden=(2,)).save(path)
+    pair = (taught / "line.wav", taught / "line.json")
+    train_model([pair], hears="published", hidden=(2,)).save(path)
     report = pipeline.animate(sound, engine="neural", model=path).animation.report
     assert report["net"] == "243-2-9"
 
@@ -293,9 +297,10 @@ def test_options_that_do_not_go_together(
 ) -> None:
     model, out = ("--model", taught / "m"), ("-o", tmp_path / "a.json")
     neural = ("animate", unseen, "--engine", "neural")
-    assert "without a model" in fails(capsys, tmp_path, *neural, *out)
     assert "a motion database" in fails(capsys, tmp_path, *neural, *model, "--database", "d", *out)
     assert "a set, overrides" in fails(capsys, tmp_path, *neural, *model, "--set", "crab", *out)
+    auto = ("animate", unseen, "--engine", "auto")
+    assert "a motion database" in fails(capsys, tmp_path, *auto, "--database", "d", *out)
     assert "Choose the neural engine" in fails(capsys, tmp_path, "say", "Hi", *model, *out)
     over = (*neural, "--model", tmp_path / "a.json", *out)
     (tmp_path / "a.json").write_bytes((taught / "m").read_bytes())

@@ -24,9 +24,9 @@ from tools.neural_model.spoken import RATE, read_spoken, speak_all, write_spoken
 
 SEED = 1
 LINES = {"english": 2600, "others": 2200, "flite": 3000, "festival": 1000}
-TIMES = 3
+TIMES = 2
 """How often each line is spoilt, each time otherwise."""
-STEPS = 4000
+STEPS = 3600
 SHAPES = {"whole": WHOLE, "live": LIVE}
 
 

@@ -38,6 +38,7 @@ def converted(net: Net, about: dict[str, Any]) -> LiveModel:
         shape.ahead - shape.late,
         shape.both_ways,
         (0,),
+        (),
         (rows(0, count),),
         True,
         rows(out.weights.shape[1] - 1, out.weights.shape[1]),

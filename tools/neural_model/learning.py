@@ -30,7 +30,7 @@ _CLOSED = 0.85
 """PBM from which on lips are closed."""
 _MISSED = 2.0
 """A closure that is missed counts for so many that are made up."""
-_LIKELY = (-50.0, -20.0)
+_LIKELY = (-45.0, -18.0)
 """dB: how loud a speaker is taken to be at the start of a sound."""
 
 
@@ -102,8 +102,8 @@ def stretches(
 ) -> Iterator[tuple[Tensor, Tensor, Tensor]]:
     """Return, without end, stretches of some seconds: bands, poses, classes.
 
-    Bands before each stretch make up what the first frame stacks; some are hidden or raised,
-    so that no band alone decides.
+    Bands before each stretch make up what the first frame stacks. All are moved along the
+    scale, some are hidden or raised, so that no band alone decides.
     """
     frames = int(SECONDS * 50)
     span = 2 * (frames + shape.ahead) + 2
@@ -112,6 +112,7 @@ def stretches(
         bands = np.stack([lessons.bands[s - 4 : s - 4 + span] for s in starts]).astype(np.float32)
         poses = np.stack([lessons.poses[s : s + 2 * frames : 2] for s in starts])
         classes = np.stack([lessons.classes[s : s + 2 * frames : 2] for s in starts])
+        bands = shifted(bands, rng)
         bands += rng.normal(0, 0.03, (BATCH, 1, 1)) + rng.normal(0, 0.04, (BATCH, 1, mel.BANDS))
         for row in np.flatnonzero(rng.random(BATCH) < 0.5):
             first, wide = int(rng.integers(mel.BANDS - 6)), int(rng.integers(1, 7))
@@ -121,6 +122,18 @@ def stretches(
             torch.from_numpy(poses.astype(np.float32)),
             torch.from_numpy(classes.astype(np.int64)),
         )
+
+
+def shifted(bands: NDArray[np.float32], rng: np.random.Generator) -> NDArray[np.float32]:
+    """Return bands as longer and shorter throats would have them: moved along the scale."""
+    places = np.arange(mel.BANDS)
+    found = np.empty_like(bands)
+    for row, one in enumerate(bands):
+        at = np.clip(places * rng.uniform(0.94, 1.06) + rng.uniform(-1, 1), 0, mel.BANDS - 1)
+        low = np.minimum(at.astype(np.intp), mel.BANDS - 2)
+        share = (at - low).astype(np.float32)
+        found[row] = one[:, low] * (1 - share) + one[:, low + 1] * share
+    return found
 
 
 def wrong(outputs: Tensor, poses: Tensor, classes: Tensor) -> Tensor:

@@ -59,7 +59,7 @@ def narrowed(sound: Floats, rng: np.random.Generator) -> Floats:
 
 def levelled(sound: Floats, rng: np.random.Generator) -> NDArray[np.float32]:
     """Return a sound at a random level, with a little hiss, clipped where it is too loud."""
-    level = 10 ** (rng.uniform(-28, 8) / 20)
+    level = 10 ** (rng.uniform(-28, 16) / 20)
     hiss = rng.normal(0, 10 ** (rng.uniform(-96, -66) / 20), len(sound))
     return np.clip(level * sound + hiss, -1.0, 1.0).astype(np.float32)
 

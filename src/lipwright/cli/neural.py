@@ -98,7 +98,10 @@ def _tell(model: Model | LiveModel, path: str, as_json: bool) -> None:
         click.echo(json.dumps(facts))
         return
     about = model.about
-    click.echo(f"{path}: {facts['net']}, {facts['frames_per_second']:g} frames per second")
+    click.echo(
+        f"{path}: {'-'.join(map(str, facts['net']))}, "
+        f"{facts['frames_per_second']:g} frames per second"
+    )
     click.echo(f"  gives   {', '.join(model.controls)}")
     click.echo(f"  hears   {facts['hears']}")
     click.echo(
@@ -119,7 +122,7 @@ def _facts(model: Model | LiveModel, path: str) -> dict[str, Any]:
 def _as_published(model: Model) -> dict[str, Any]:
     hearing = model.hearing
     return {
-        "net": "-".join(map(str, model.network.shape)),
+        "net": list(model.network.shape),
         "frames_per_second": 1 / hearing.frame,
         "hears": f"{1000 * hearing.context:g} ms: {hearing.segments} segments of "
         f"{1000 * hearing.segment:g} ms, {hearing.areas} areas from {hearing.lowest:g} to "
@@ -130,10 +133,10 @@ def _as_published(model: Model) -> dict[str, Any]:
 def _of_live(model: LiveModel) -> dict[str, Any]:
     from lipwright.engines.neural.live_model import FRAME
 
-    before = (model.net.reach - model.instants[0]) * FRAME
+    before = (model.net.reach + model.behind) * FRAME
     way = "recordings" if model.both_ways else "recordings and streams"
     return {
-        "net": model.shape,
+        "net": list(model.shape),
         "frames_per_second": 1 / FRAME,
         "hears": f"{way}: {before:.2f} s before a frame and {1000 * model.latency:g} ms after it",
         "latency": round(model.latency + FRAME, 4),

@@ -96,6 +96,12 @@ class Convolutions:
         """Return the memory of a net that has heard nothing yet."""
         return [np.zeros((block.reach, self.units)) for block in self.blocks]
 
+    def settled(self) -> Memory:
+        """Return the memory of a net that has heard silence for as long as it remembers."""
+        memory = self.rest()
+        self(np.zeros((self.reach + 1, len(self.first.weights))), memory)
+        return memory
+
     def __call__(self, heard: Floats, memory: Memory) -> Floats:
         """Return what the net makes of further frames.
 

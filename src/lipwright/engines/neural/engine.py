@@ -139,7 +139,7 @@ def said_live(model: LiveModel, sound: Sound) -> Answer:
     frames = hear_all(sound.samples, sound.rate, model)
     values = frames.values.astype(np.float64)
     facts = {
-        "net": model.shape,
+        "net": "-".join(map(str, model.shape)),
         "confidence": round(float(1.0 - np.minimum(frames.doubt / UNSURE, 2.0).mean() / 2.0), 4),
         "unsure": spells(frames.doubt > UNSURE),
         "speaks": round(float((values > MOVES).any(axis=1).mean()), 4),

@@ -12,6 +12,7 @@ from __future__ import annotations
 import base64
 import binascii
 import json
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -81,6 +82,8 @@ class LiveModel:
         Whether the loudness is that of the whole recording: such a model cannot stream.
     instants : tuple of int
         Frames, 0 or before, of which the last layers take what the convolutions make.
+    bands : tuple of int
+        Frames, 0 or before, of which they take the bands themselves; may be empty.
     layers : tuple of Affine
         The last layers; logistic units between them.
     logistic : bool
@@ -102,6 +105,7 @@ class LiveModel:
     ahead: int
     both_ways: bool
     instants: tuple[int, ...]
+    bands: tuple[int, ...]
     layers: tuple[Affine, ...]
     logistic: bool
     doubt: Affine
@@ -115,20 +119,47 @@ class LiveModel:
         return self.ahead * FRAME + (mel.WINDOW - mel.HOP) / mel.RATE
 
     @property
-    def shape(self) -> str:
-        """The net in short: ``"160-96 x 6-9"``: inputs, units and blocks, then each layer."""
-        inputs = len(self.net.first.weights)
-        sizes = [f"{inputs}-{self.net.units} x {len(self.net.blocks)}"]
-        return "-".join([*sizes, *(str(len(layer.bias)) for layer in self.layers)])
+    def shape(self) -> tuple[int, ...]:
+        """Units of each layer, inputs first: ``(160, 96, …, 9)``; a block counts as one."""
+        blocks = (len(block.back.bias) for block in self.net.blocks)
+        last = (len(layer.bias) for layer in self.layers)
+        return (len(self.net.first.weights), self.net.units, *blocks, *last)
 
-    def answered(self, made: Floats, past: Floats) -> tuple[Floats, Floats]:
-        """Return the controls and the doubt for what the convolutions made.
+    @property
+    def behind(self) -> int:
+        """Frames before the newest that the last layers still hear."""
+        return -min((0, *self.instants, *self.bands))
+
+    @property
+    def taken(self) -> int:
+        """Numbers that the last layers take in."""
+        return len(self.instants) * self.net.units + len(self.bands) * mel.BANDS
+
+    def taken_in(self, rows: Floats) -> Floats:
+        """Return what the last layers take in at every frame but the first few.
 
         Parameters
         ----------
-        made : (T, C) float64
-        past : (-instants[0], C) float64
-            What they made before.
+        rows : (behind + T, C + 40) float64
+            For each frame what the convolutions made of it, and its own bands.
+
+        Returns
+        -------
+        (T, taken) float64
+        """
+        units, count = self.net.units, len(rows) - self.behind
+        made, bands = rows[:, :units], rows[:, units:]
+        parts = [made[self.behind + back :][:count] for back in self.instants]
+        parts += [bands[self.behind + back :][:count] for back in self.bands]
+        return np.concatenate(parts, axis=1)
+
+    def answered(self, rows: Floats) -> tuple[Floats, Floats]:
+        """Return the controls and the doubt at every frame but the first few.
+
+        Parameters
+        ----------
+        rows : (behind + T, C + 40) float64
+            See :meth:`taken_in`.
 
         Returns
         -------
@@ -136,16 +167,9 @@ class LiveModel:
         doubt : (T,) float64
             How far off the opening may be, as a share of its range.
         """
-        known = np.concatenate([past, made])
-        first = len(past)
-        values = np.concatenate(
-            [known[first + back : first + back + len(made)] for back in self.instants], axis=1
-        )
-        for number, layer in enumerate(self.layers, 1):
-            values = applied(layer, values)
-            if number < len(self.layers):
-                values = on_grid(logistic(values))
+        values = through(self.layers, self.taken_in(rows))
         values = np.clip(logistic(values) if self.logistic else values, self.low, self.high)
+        made = np.ascontiguousarray(rows[self.behind :, : self.net.units])
         doubt = np.exp(np.minimum(applied(self.doubt, made)[:, 0], 0.0))
         if self.closed is not None and self.closing is not None:
             values = self._closed(values, logistic(applied(self.closed, made)[:, 0]))
@@ -173,6 +197,7 @@ class LiveModel:
             ("ahead", self.ahead),
             ("both_ways", self.both_ways),
             ("instants", list(self.instants)),
+            ("bands", list(self.bands)),
             ("logistic", self.logistic),
             ("closing", msgspec.to_builtins(self.closing)),
             ("about", self.about),
@@ -206,6 +231,16 @@ class LiveModel:
         write_atomically(path, self.to_bytes())
 
 
+def through(layers: Sequence[Affine], inputs: Floats) -> Floats:
+    """Return what last layers answer to inputs (T, I): neither clipped nor logistic."""
+    values = inputs
+    for number, layer in enumerate(layers, 1):
+        values = applied(layer, values)
+        if number < len(layers):
+            values = on_grid(logistic(values))
+    return values
+
+
 def read_live_model(path: str | Path) -> LiveModel:
     """Return the live model in a file.
 
@@ -229,7 +264,7 @@ def read_live_model(path: str | Path) -> LiveModel:
     )
     net = Convolutions(_layer(read.first, where, units, STACKED * mel.BANDS), blocks)
     _check(read, where)
-    layers, width = [], len(read.instants) * units
+    layers, width = [], len(read.instants) * units + len(read.bands) * mel.BANDS
     for number, layer in enumerate(read.layers, 1):
         layers.append(_layer(layer, f"{where}, layer {number}", layer.units, width))
         width = layer.units
@@ -244,6 +279,7 @@ def read_live_model(path: str | Path) -> LiveModel:
         read.ahead,
         read.both_ways,
         tuple(read.instants),
+        tuple(read.bands),
         tuple(layers),
         read.logistic,
         _layer(read.doubt, f"{where}, at doubt", 1, units),
@@ -275,6 +311,7 @@ class _Document(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     ahead: int
     both_ways: bool
     instants: list[int]
+    bands: list[int]
     logistic: bool
     closing: Closing | None
     about: dict[str, Any]
@@ -296,11 +333,12 @@ def _check(read: _Document, where: str) -> None:
         raise _unfit("a range that is none", where, "low below high")
     if not 0 <= read.ahead <= MOST_AHEAD:
         raise _unfit(f"{read.ahead} frames ahead", where, f"0 to {MOST_AHEAD}")
-    instants = read.instants
-    if not instants or instants[-1] != 0 or sorted(set(instants)) != instants:
-        raise _unfit(f"the instants {instants}", where, "rising numbers, the last of them 0")
-    if instants[0] < -MOST_AHEAD or not read.layers:
-        raise _unfit("no layers, or instants too far back", where, f"{-MOST_AHEAD} at most")
+    for name, instants in (("instants", read.instants), ("bands", read.bands)):
+        rising = sorted(set(instants)) == instants
+        if not rising or any(not -MOST_AHEAD <= back <= 0 for back in instants):
+            raise _unfit(f"the {name} {instants}", where, f"rising, from {-MOST_AHEAD} to 0")
+    if not read.layers:
+        raise _unfit("no layers", where, "one or more")
     if any(not 1 <= block.dilation <= 4096 for block in read.blocks):
         raise _unfit("a dilation that cannot be", where, "1 to 4096 frames")
     closing = read.closing

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
 Floats = NDArray[np.float64]
-START = -35.0
+START = -30.0
 """dB of full scale: how loud a speaker is taken to be before anything was heard."""
 LOUDEST = 8.0
 """Samples beyond this are not -1..1 but whole numbers."""
@@ -167,8 +167,8 @@ class Hearing:
 
     def __init__(self, model: LiveModel) -> None:
         self.model = model
-        self._memory = model.net.rest()
-        self._past = np.zeros((-model.instants[0], model.net.units))
+        self._memory = model.net.settled()
+        self._past = np.zeros((model.behind, model.net.units + mel.BANDS))
         self._bands = np.zeros((STACKED, mel.BANDS))
         self._made = 0  # by the net; frame j is number j + ahead
 
@@ -201,9 +201,10 @@ class Hearing:
     def _answer(self, heard: Floats) -> Frames:
         model = self.model
         made = model.net(heard, self._memory)
-        values, doubt = model.answered(made, self._past)
-        if len(self._past):
-            self._past = np.concatenate([self._past, made])[-len(self._past) :]
+        own = 0.5 * (heard[:, -2 * mel.BANDS : -mel.BANDS] + heard[:, -mel.BANDS :])
+        rows = np.concatenate([self._past, np.concatenate([made, own], axis=1)])
+        values, doubt = model.answered(rows)
+        self._past = rows[len(rows) - model.behind :]
         first = self._made - model.ahead
         self._made += len(made)
         early = max(-first, 0)  # what the net said before the sound began

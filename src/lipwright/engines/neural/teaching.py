@@ -14,7 +14,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from lipwright.engines.neural.convolution import WEIGHT_STEP, Affine, applied, on_grid
+from lipwright.engines.neural.convolution import WEIGHT_STEP, Affine
 from lipwright.engines.neural.features import check_audible
 from lipwright.engines.neural.lessons import (
     Lesson,
@@ -24,8 +24,8 @@ from lipwright.engines.neural.lessons import (
     controls_of,
     shown,
 )
-from lipwright.engines.neural.live_model import FRAME, GREATEST, LiveModel
-from lipwright.engines.neural.network import Network, logistic
+from lipwright.engines.neural.live_model import FRAME, GREATEST, LiveModel, through
+from lipwright.engines.neural.network import Network
 from lipwright.engines.neural.stream import hear_all
 from lipwright.engines.neural.training import fit_network
 from lipwright.errors import SoundError
@@ -35,7 +35,9 @@ Floats = NDArray[np.float64]
 
 HIDDEN = 64
 REACH = (-6, -3, 0, 3, 6)
-"""Frames around the one that is answered; a model that streams hears only those before."""
+"""Frames around the one that is answered of which it is taken what the convolutions make."""
+HEARD = tuple(range(-12, 13))
+"""Frames around it whose bands are taken too; a model that streams hears those before only."""
 NETS = 3
 STILLEST = 0.01
 """Units that deviate by less, in training, are not listened to."""
@@ -105,14 +107,18 @@ def teach(
 
 def with_reach(ears: LiveModel) -> LiveModel:
     """Return ears whose last layers hear several instants: around the frame, if they may wait."""
-    later = max(REACH) if ears.both_ways else 0
-    instants = tuple(back - max(REACH) for back in REACH)
-    return replace(ears, ahead=ears.ahead + later, instants=instants)
+    later = HEARD[-1]
+    return replace(
+        ears,
+        ahead=ears.ahead + (later if ears.both_ways else 0),
+        instants=tuple(around - later for around in REACH),
+        bands=tuple(around - later for around in HEARD),
+    )
 
 
 def heard_by(ears: LiveModel, sound: Sound) -> Floats:
     """Return what the last layers take in at every frame of a sound, (T, instants x C)."""
-    width = len(ears.instants) * ears.net.units
+    width = ears.taken
     passed_on = replace(
         ears,
         controls=tuple(map(str, range(width))),
@@ -146,16 +152,6 @@ def together(nets: Sequence[Network]) -> tuple[Affine, ...]:
             found = _side_by_side(weights), np.concatenate(biases)
         layers.append(Affine(_on_weight_grid(found[0]), _on_weight_grid(found[1])))
     return tuple(layers)
-
-
-def through(layers: Sequence[Affine], inputs: Floats) -> Floats:
-    """Return what layers answer, not clipped."""
-    values = inputs
-    for number, layer in enumerate(layers, 1):
-        values = applied(layer, values)
-        if number < len(layers):
-            values = on_grid(logistic(values))
-    return values
 
 
 def _raw(net: Network, weights: Floats, bias: Floats) -> tuple[Floats, Floats]:
