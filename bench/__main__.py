@@ -34,6 +34,7 @@ MEASURES = (
     "motion_skin",
     "neural",
     "neural_live",
+    "neural_runtime",
 )
 
 

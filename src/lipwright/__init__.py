@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from lipwright.animation import Animation
     from lipwright.character import load_character
     from lipwright.engines.bigram import BigramEngine, BigramSet, load_set
+    from lipwright.engines.neural import Stream
     from lipwright.errors import InputError, LipwrightError, MissingExtraError, OutputError
     from lipwright.hearing import sound_alone
     from lipwright.motion_takes import build_motion
@@ -48,6 +49,7 @@ _HOMES = {
     "PhoneTrack": "phones",
     "Sound": "sound",
     "Speech": "speech",
+    "Stream": "engines.neural",
     "Tier": "timeline",
     "align": "pipeline",
     "animate": "pipeline",
@@ -78,6 +80,7 @@ __all__ = [
     "PhoneTrack",
     "Sound",
     "Speech",
+    "Stream",
     "Tier",
     "align",
     "animate",

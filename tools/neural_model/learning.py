@@ -28,7 +28,7 @@ _OPENS = torch.tensor([1.95, 0.0, 0.21, 0.39, 0.27, 0.0, 0.0, 0.0, 0.0])
 """By how much each pose opens the built-in head's lips, as a share of the opening's range."""
 _CLOSED = 0.85
 """PBM from which on lips are closed."""
-_MISSED = 2.0
+_MISSED = 3.0
 """A closure that is missed counts for so many that are made up."""
 _LIKELY = (-45.0, -18.0)
 """dB: how loud a speaker is taken to be at the start of a sound."""
@@ -91,7 +91,7 @@ def learn(lessons: Lessons, shape: Shape, *, steps: int, seed: int) -> Net:
         nn.utils.clip_grad_norm_(net.parameters(), CLIP)
         optimiser.step()
         rates.step()
-        mean += 0.01 * (float(loss) - mean)
+        mean += 0.01 * (float(loss.detach()) - mean)
         if step % 100 == 0:
             print(f"  step {step} of {steps}: {mean:.4f}", file=sys.stderr, flush=True)
     return net.eval()
@@ -159,7 +159,7 @@ def wrong(outputs: Tensor, poses: Tensor, classes: Tensor) -> Tensor:
     total: Tensor = (
         4.0 * (_POSE * (found - poses) ** 2).mean()
         + 2.0 * (apart**2).mean()
-        + 0.15 * closures
+        + 0.3 * closures
         + 0.1 * named
         + 0.02 * doubt
     )

@@ -55,7 +55,7 @@ class Net(nn.Module):
         Share of units that are left out at random while learning.
     """
 
-    def __init__(self, shape: Shape, poses: int, classes: int, dropped: float = 0.1) -> None:
+    def __init__(self, shape: Shape, poses: int, classes: int, dropped: float = 0.15) -> None:
         super().__init__()
         units = shape.units
         self.shape = shape
