@@ -15,7 +15,8 @@ if TYPE_CHECKING:
 
     from tools.neural_model.net import Net
 
-CLOSING = Closing("PBM", {"open": 0.0, "W": 0.4, "wide": 0.4, "ShCh": 0.4, "FV": 0.4}, 0.4, 0.7)
+LEAVES = {"open": 0.0, "W": 0.4, "wide": 0.4, "ShCh": 0.4, "FV": 0.4}
+"""What a closed mouth leaves of other poses."""
 
 
 def converted(net: Net, about: dict[str, Any]) -> LiveModel:
@@ -43,7 +44,7 @@ def converted(net: Net, about: dict[str, Any]) -> LiveModel:
         True,
         rows(out.weights.shape[1] - 1, out.weights.shape[1]),
         rows(count, count + 1),
-        CLOSING,
+        Closing("PBM", LEAVES, *shape.closing),
         about,
     )
 

@@ -26,6 +26,8 @@ class Shape:
         By how many frames the answer is stamped later than the face it was taught.
     both_ways : bool
         Whether loudness is that of the whole recording.
+    closing : tuple of two float
+        How likely a closure must be to begin to be shown, and to be shown whole.
     units : int
     dilations : tuple of int
     """
@@ -33,12 +35,13 @@ class Shape:
     ahead: int
     late: int
     both_ways: bool
+    closing: tuple[float, float]
     units: int = 96
     dilations: tuple[int, ...] = (1, 2, 4, 8, 16, 1)
 
 
-WHOLE = Shape(ahead=4, late=0, both_ways=True)
-LIVE = Shape(ahead=1, late=1, both_ways=False)
+WHOLE = Shape(ahead=4, late=0, both_ways=True, closing=(0.55, 0.85))
+LIVE = Shape(ahead=1, late=1, both_ways=False, closing=(0.4, 0.7))
 """Faces move some 25 ms later than curves are drawn (docs/english-set.md), so a live answer may
 be 20 ms later than drawn: it has heard a frame more, and waits for none."""
 

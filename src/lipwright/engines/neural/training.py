@@ -107,6 +107,7 @@ def fit_network(
     *,
     decay: float = DECAY,
     passes: int = PASSES,
+    rate: float = RATE,
 ) -> Network:
     """Return the net that back-propagation finds.
 
@@ -120,6 +121,8 @@ def fit_network(
         What pulls weights to 0; at 0 it is plain back-propagation.
     passes : int
         Over the data.
+    rate : float
+        Of learning.
 
     Raises
     ------
@@ -138,7 +141,7 @@ def fit_network(
         activation="logistic",
         solver="adam",
         alpha=decay * min(1.0, TAUGHT / len(inputs)),  # a batch's share of it, not the whole's
-        learning_rate_init=RATE,
+        learning_rate_init=rate,
         max_iter=passes,
         n_iter_no_change=passes,
         random_state=seed,
