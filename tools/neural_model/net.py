@@ -40,7 +40,7 @@ class Shape:
     dilations: tuple[int, ...] = (1, 2, 4, 8, 16, 1)
 
 
-WHOLE = Shape(ahead=4, late=0, both_ways=True, closing=(0.55, 0.85))
+WHOLE = Shape(ahead=4, late=0, both_ways=True, closing=(0.6, 0.9))
 LIVE = Shape(ahead=1, late=1, both_ways=False, closing=(0.4, 0.7))
 """Faces move some 25 ms later than curves are drawn (docs/english-set.md), so a live answer may
 be 20 ms later than drawn: it has heard a frame more, and waits for none."""
