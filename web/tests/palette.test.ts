@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { ON_DARK, ON_LIGHT, stroke } from "../src/palette.ts";
+import { ON_DARK, ON_LIGHT, stroke } from "../src/shared/palette.ts";
 
 type Colour = [number, number, number];
 

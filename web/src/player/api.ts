@@ -1,8 +1,8 @@
 /** What a test, or another script on the page, may ask of it: `window.lipwright`. */
 
-import type { Model } from "./model.ts";
-import type { Player } from "./player.ts";
-import type { Stage } from "./stage.ts";
+import type { Model } from "../shared/model.ts";
+import type { Player } from "../shared/player.ts";
+import type { Stage } from "../shared/stage.ts";
 
 export interface Lipwright {
   /** Fulfilled once the model is on the stage; rejected if it cannot be shown. */

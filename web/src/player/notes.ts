@@ -1,8 +1,8 @@
 /** What the engine has to say about its work: a line in the header, the rest in a dialog. */
 
-import { frameCount } from "./curves.ts";
+import { frameCount } from "../shared/curves.ts";
 import type { Performance } from "./document.ts";
-import { clockTime } from "./format.ts";
+import { clockTime } from "../shared/format.ts";
 
 type Note = [string, string];
 

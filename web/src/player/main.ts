@@ -3,20 +3,21 @@
 import "./style.css";
 import { publish, type Parts } from "./api.ts";
 import { keysOf, SPEEDS, step, toggleMute } from "./commands.ts";
-import { peaks, sample } from "./curves.ts";
+import { peaks, sample } from "../shared/curves.ts";
 import { block, fromBase64, performanceOf, wholeOf, type Performance } from "./document.ts";
-import { clockTime } from "./format.ts";
-import { blink } from "./idle.ts";
-import { describe, listen } from "./keyboard.ts";
+import { clockTime } from "../shared/format.ts";
+import { blink } from "../shared/idle.ts";
+import { describe, listen } from "../shared/keyboard.ts";
 import { Legend } from "./legend.ts";
-import { loadModel, type Model } from "./model.ts";
+import { loadModel, type Model } from "../shared/model.ts";
 import { notes, summary } from "./notes.ts";
-import { Player } from "./player.ts";
-import { spanAt } from "./spans.ts";
-import { Stage, VIEWS } from "./stage.ts";
-import { Timeline, type Shown } from "./timeline.ts";
-import { Voice } from "./voice.ts";
-import { peaksOf, readWav } from "./wav.ts";
+import { Player } from "../shared/player.ts";
+import { spanAt } from "../shared/spans.ts";
+import { Stage, VIEWS } from "../shared/stage.ts";
+import type { Shown } from "../shared/paint.ts";
+import { Timeline } from "./timeline.ts";
+import { Voice } from "../shared/voice.ts";
+import { peaksOf, readWav } from "../shared/wav.ts";
 
 const LIDS = ["eyeBlinkLeft", "eyeBlinkRight"];
 

@@ -1,8 +1,9 @@
 /** The list of controls: colour, name, value at the playhead; pressed, a curve is shown. */
 
-import { peaks, sample, type Curves } from "./curves.ts";
-import { stroke } from "./palette.ts";
-import type { Shown, Timeline } from "./timeline.ts";
+import { peaks, sample, type Curves } from "../shared/curves.ts";
+import { stroke } from "../shared/palette.ts";
+import type { Shown } from "../shared/paint.ts";
+import type { Timeline } from "./timeline.ts";
 
 /** A control that stays below this all the time is listed, but held back. */
 const STILL = 0.005;

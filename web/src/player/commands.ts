@@ -1,12 +1,12 @@
 /** What the user may tell the player, and with which keys. */
 
-import type { Curves } from "./curves.ts";
+import type { Curves } from "../shared/curves.ts";
 import type { Performance } from "./document.ts";
-import type { Key } from "./keyboard.ts";
+import type { Key } from "../shared/keyboard.ts";
 import type { Legend } from "./legend.ts";
-import type { Player } from "./player.ts";
-import { middle, neighbour } from "./spans.ts";
-import { VIEWS, type Stage } from "./stage.ts";
+import type { Player } from "../shared/player.ts";
+import { middle, neighbour } from "../shared/spans.ts";
+import { VIEWS, type Stage } from "../shared/stage.ts";
 import type { Timeline } from "./timeline.ts";
 
 export const SPEEDS = [0.25, 0.5, 0.75, 1];

@@ -1,31 +1,29 @@
 /** How the timeline is drawn. What stands still is kept between pictures; the rest is little. */
 
 import type { Range } from "./clock.ts";
-import { frameCount } from "./curves.ts";
-import type { Performance } from "./document.ts";
+import { frameCount, type Curves } from "./curves.ts";
+import type { Ink } from "./ink.ts";
 import { niceStep, rulerTime } from "./format.ts";
 import { stroke } from "./palette.ts";
 import type { Hit, Row, RowName } from "./rows.ts";
 import type { Scale } from "./scale.ts";
 import { lastStart, spanAt, type Span } from "./spans.ts";
-import type { Shown } from "./timeline.ts";
 import { extent, type Peaks } from "./wav.ts";
 
-export interface Ink {
-  dark: boolean;
-  text: string;
-  muted: string;
-  line: string;
-  page: string;
-  wave: string;
-  accent: string;
-  soft: string;
-  playhead: string;
-  font: string;
+/** What a timeline shows of a line. */
+export interface Tracks {
+  controls: Curves;
+  words: Span[];
+  phones: Span[];
+}
+
+export interface Shown {
+  hidden: Set<number>;
+  highlighted: number | null;
 }
 
 export interface Scene {
-  performance: Performance;
+  performance: Tracks;
   peaks: Peaks | null;
   rows: Row[];
   scale: Scale;

@@ -1,22 +1,18 @@
 /** The timeline: waveform, words, phones and curves over one axis; drag to scrub. */
 
-import type { Range } from "./clock.ts";
+import type { Range } from "../shared/clock.ts";
 import type { Performance } from "./document.ts";
-import { clockTime, milliseconds } from "./format.ts";
-import { paint, type Ink } from "./paint.ts";
-import type { Player } from "./player.ts";
-import { hit, layOut, type Hit, type Row } from "./rows.ts";
-import { Scale } from "./scale.ts";
-import { middle, spanAt, type Span } from "./spans.ts";
-import type { Peaks } from "./wav.ts";
+import { clockTime, milliseconds } from "../shared/format.ts";
+import { readInk, type Ink } from "../shared/ink.ts";
+import { paint, type Shown } from "../shared/paint.ts";
+import type { Player } from "../shared/player.ts";
+import { hit, layOut, type Hit, type Row } from "../shared/rows.ts";
+import { Scale } from "../shared/scale.ts";
+import { middle, spanAt, type Span } from "../shared/spans.ts";
+import type { Peaks } from "../shared/wav.ts";
 
 /** Pixels that a second needs for its phones to be read. */
 const READABLE = 130;
-
-export interface Shown {
-  hidden: Set<number>;
-  highlighted: number | null;
-}
 
 export class Timeline {
   readonly scale: Scale;
@@ -221,21 +217,4 @@ export class Timeline {
 
 function ordered(a: number, b: number): Range {
   return { start: Math.min(a, b), end: Math.max(a, b) };
-}
-
-function readInk(canvas: HTMLCanvasElement): Ink {
-  const style = getComputedStyle(canvas);
-  const ink = (name: string) => style.getPropertyValue(`--${name}`).trim();
-  return {
-    dark: ink("dark") === "1",
-    text: ink("text"),
-    muted: ink("muted"),
-    line: ink("line"),
-    page: ink("page"),
-    wave: ink("wave"),
-    accent: ink("accent"),
-    soft: ink("accent-soft"),
-    playhead: ink("playhead"),
-    font: style.fontFamily,
-  };
 }

@@ -1,9 +1,9 @@
 /** What `lipwright` put into the page: an animation, a model, and perhaps a sound. */
 
-import { curves, endOf, type Curves } from "./curves.ts";
-import type { Range } from "./clock.ts";
-import type { Turn } from "./model.ts";
-import type { Span } from "./spans.ts";
+import { curves, endOf, type Curves } from "../shared/curves.ts";
+import type { Range } from "../shared/clock.ts";
+import type { Turn } from "../shared/model.ts";
+import type { Span } from "../shared/spans.ts";
 
 type Row = [string, number, number];
 
