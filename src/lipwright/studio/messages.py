@@ -37,7 +37,13 @@ class Part(msgspec.Struct, frozen=True, rename="camel"):
 
 
 class Start(Message, frozen=True, tag="start"):
-    """The first word of a page; answered by :class:`Hello`."""
+    """The first word of a page; answered by :class:`Hello`.
+
+    ``session`` is that of the last Hello, where there was one: a studio that was started again
+    then goes on where it ended, without asking.
+    """
+
+    session: str = ""
 
 
 class EditRequest(Message, frozen=True, tag="edit", kw_only=True):
@@ -347,9 +353,9 @@ class Changed(Message, frozen=True, tag="changed", kw_only=True):
 class BigramView(Message, frozen=True, tag="bigram", kw_only=True):
     """A pair as it is drawn.
 
-    ``curves`` are what sounds; ``set_curves`` and ``override_curves`` what each document says,
-    where it says something; ``stand_in`` what would be used were nothing drawn; ``starts`` a
-    useful beginning for each pose that the pair has not.
+    ``curves`` are what is animated, gains and all. Drawing begins with ``override_curves``, else
+    ``under`` (what overrides lie on), in the overrides; with ``set_curves``, else ``stand_in``, in
+    the set. ``starts`` has a useful beginning for each pose.
     """
 
     revision: int
@@ -361,6 +367,7 @@ class BigramView(Message, frozen=True, tag="bigram", kw_only=True):
     curves: Curves
     set_curves: Curves | None
     override_curves: Curves | None
+    under: Curves
     stand_in: Curves
     starts: Curves
 
@@ -382,8 +389,6 @@ class PairSpan(Part, frozen=True):
     first: float
     boundary: float
     last: float
-    state: PairState
-    overridden: bool
 
 
 class ClassSpan(Part, frozen=True):
@@ -410,7 +415,7 @@ class EditView(Part, frozen=True):
 
 
 class LineView(Message, frozen=True, tag="line", kw_only=True):
-    """A line, without its motion. ``peaks`` are least and greatest sample by turns."""
+    """A line, without its motion; ``sound`` is the address of its WAV, nothing where silent."""
 
     revision: int
     line: str
@@ -427,8 +432,15 @@ class LineView(Message, frozen=True, tag="line", kw_only=True):
     edits: tuple[EditView, ...]
     notes: tuple[str, ...]
     sound: str
+
+
+class PeaksView(Message, frozen=True, tag="peaks", kw_only=True):
+    """A line's waveform: least and greatest sample by turns; sent once to each page."""
+
+    line: str
+    sound: str
     peaks: Packed
-    peaks_per_second: float
+    per_second: float
 
 
 class StageCurve(Part, frozen=True):
@@ -661,6 +673,7 @@ Answer = (
     | BigramView
     | PhoneView
     | LineView
+    | PeaksView
     | MotionView
     | CharacterView
     | PoseView

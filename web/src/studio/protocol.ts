@@ -138,6 +138,7 @@ export interface RemoveEdit {
 export interface Start {
   type: "start";
   id?: number;
+  session?: string;
 }
 
 /** Change something; answered by :class:`Changed`, to every page. */
@@ -427,6 +428,7 @@ export interface BigramView {
   curves: Record<string, [number, number][]>;
   setCurves: Record<string, [number, number][]> | null;
   overrideCurves: Record<string, [number, number][]> | null;
+  under: Record<string, [number, number][]>;
   standIn: Record<string, [number, number][]>;
   starts: Record<string, [number, number][]>;
 }
@@ -442,7 +444,7 @@ export interface PhoneView {
   overridden: boolean;
 }
 
-/** A line, without its motion. ``peaks`` are least and greatest sample by turns. */
+/** A line, without its motion; ``sound`` is the address of its WAV, nothing where silent. */
 export interface LineView {
   type: "line";
   id: number;
@@ -461,8 +463,6 @@ export interface LineView {
   edits: EditView[];
   notes: string[];
   sound: string;
-  peaks: Packed;
-  peaksPerSecond: number;
 }
 
 /** A label in time, seconds. */
@@ -490,8 +490,6 @@ export interface PairSpan {
   first: number;
   boundary: number;
   last: number;
-  state: "drawn" | "no curve" | "stand-in";
-  overridden: boolean;
 }
 
 /** An edit of a line, and where it acts; a lost one has no place. */
@@ -501,6 +499,16 @@ export interface EditView {
   lost: boolean;
   start: number;
   end: number;
+}
+
+/** A line's waveform: least and greatest sample by turns; sent once to each page. */
+export interface PeaksView {
+  type: "peaks";
+  id: number;
+  line: string;
+  sound: string;
+  peaks: Packed;
+  perSecond: number;
 }
 
 /** How a line moves: the curves of its controls, and the channels of the character's rig. */
@@ -720,6 +728,7 @@ export type Answer =
   | BigramView
   | PhoneView
   | LineView
+  | PeaksView
   | MotionView
   | CharacterView
   | PoseView

@@ -121,7 +121,7 @@ class BigramEngine:
         self.rules: Rules = of.preset(preset)
         self.plan = Plan.of(self.rules)
         names = self.plan.names
-        self.table = like.table.for_set(of, names) if like is not None else Table(of, names)
+        self.table: Table = like.table.for_set(of, names) if like else Table(of, names)
         self._reduction = reduction
         _keep_freed_memory()
 

@@ -31,7 +31,7 @@ from lipwright.engines.bigram.model import (
 )
 from lipwright.engines.bigram.set_file import digest_of, read_bigrams, read_curves
 from lipwright.errors import InputError, SetError, did_you_mean
-from lipwright.files import check_document, convert, read_bytes, read_document
+from lipwright.files import check_document, convert, parse_json, read_bytes
 from lipwright.phones import load_phone_set
 
 FORMAT, VERSION = OVERRIDES_FORMAT, 1
@@ -103,10 +103,14 @@ def read_overrides(path: str | Path, base: BigramSet, character: str = "") -> Bi
 
 def open_overrides(path: str | Path, phone_set: str, character: str = "") -> Overrides:
     """Return what an override file says, to be laid over a set of these classes."""
-    where = str(path)
-    document = read_document(path, format=FORMAT, version=VERSION)
+    return overrides_from(read_bytes(path), str(path), phone_set, character)
+
+
+def overrides_from(data: bytes, where: str, phone_set: str, character: str = "") -> Overrides:
+    """Return what the content of an override file says."""
+    document = check_document(parse_json(data, where), where, format=FORMAT, version=VERSION)
     read = convert(document, OverridesDocument, where)
-    return checked_overrides(read, phone_set, where, character, read_bytes(path))
+    return checked_overrides(read, phone_set, where, character, data)
 
 
 def checked_overrides(
@@ -251,8 +255,8 @@ def _sayings(read: OverridesDocument) -> Iterator[tuple[object, str, str]]:
     for conflict in read.conflicts:
         names = " and ".join(sorted(conflict.poses))
         yield frozenset(conflict.poses), f"the threshold of {names}", f"{conflict.threshold:g}"
-    for field, value in read.settings.items():
-        yield ("setting", field), f"{field!r}", str(value)
+    for one, value in read.settings.items():
+        yield ("setting", one), f"{one!r}", str(value)
 
 
 def lay_over(base: BigramSet, read: Overrides) -> BigramSet:
@@ -270,7 +274,7 @@ def lay_over(base: BigramSet, read: Overrides) -> BigramSet:
             bigrams={**base.bigrams, **read.bigrams},
             singles={**base.singles, **read.singles},
             digest=digest_of(f"{base.digest} {read.digest}".encode()),
-            layers=(*base.layers, _layer(read)),
+            layers=(*base.layers, layer_of(read)),
             beneath=base.beneath or base,
         )
         return with_gains(merged, read.gains)
@@ -279,7 +283,8 @@ def lay_over(base: BigramSet, read: Overrides) -> BigramSet:
         raise (place.at(read.named_by) if read.named_by else place) from None
 
 
-def _layer(read: Overrides) -> Layer:
+def layer_of(read: Overrides) -> Layer:
+    """Return the record of who said what."""
     return Layer(
         read.name,
         read.where,

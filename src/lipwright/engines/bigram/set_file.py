@@ -17,10 +17,12 @@ from lipwright.engines.bigram.model import Bigram, BigramSet, Curves, Pair
 from lipwright.engines.bigram.set_text import set_bytes as set_bytes
 from lipwright.errors import InputError, SetError, did_you_mean
 from lipwright.files import (
+    Version,
+    check_document,
     convert,
     file_version,
+    parse_json,
     read_bytes,
-    read_document,
 )
 from lipwright.phones import PhoneSet, load_phone_set
 
@@ -58,16 +60,21 @@ def read_set(path: str | Path) -> BigramSet:
     return _read_set(Path(path), ())
 
 
-def read_set_document(path: str | Path) -> SetDocument:
-    """Return what a set's file says, without the set that it builds on.
+def set_document(data: bytes, where: str) -> SetDocument:
+    """Return what the content of a set's file says, without the set that it builds on.
 
     Raises
     ------
     FileFormatError
         If it is broken; the message names the place in the file.
     """
-    document = read_document(path, format=FORMAT, version=VERSION)
-    return convert(document, SetDocument, str(path))
+    document = check_document(parse_json(data, where), where, format=FORMAT, version=VERSION)
+    return convert(document, SetDocument, where)
+
+
+def set_of(document: SetDocument, path: str | Path, data: bytes = b"") -> BigramSet:
+    """Return the set of a document that lies, or is to lie, at a path."""
+    return _made(document, Path(path), (), None, data)
 
 
 def base_of(document: SetDocument, path: str | Path) -> BigramSet | None:
@@ -80,8 +87,18 @@ def base_of(document: SetDocument, path: str | Path) -> BigramSet | None:
 
 
 def _read_set(path: Path, above: tuple[Path, ...]) -> BigramSet:
-    where, version = str(path), file_version(path)
-    read = read_set_document(path)
+    version, data = file_version(path), read_bytes(path)
+    return _made(set_document(data, str(path)), path, above, version, data)
+
+
+def _made(
+    read: SetDocument,
+    path: Path,
+    above: tuple[Path, ...],
+    version: Version | None,
+    data: bytes,
+) -> BigramSet:
+    where = str(path)
     try:
         # A user's own phone set is a file beside the set.
         own = read.phone_set.endswith(".json")
@@ -103,7 +120,7 @@ def _read_set(path: Path, above: tuple[Path, ...]) -> BigramSet:
             {**base.reach, **read.reach},
             {**base.presets, **read.presets},
             read.about,
-            digest_of(base.digest.encode() + read_bytes(path)),
+            digest_of(base.digest.encode() + data),
             files=(*base.files, *([(phone_set, phones_version)] if own else []), (where, version)),
         )
     except InputError as error:
