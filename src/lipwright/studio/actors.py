@@ -23,10 +23,13 @@ class Actor:
 
     Parameters
     ----------
+    name : str
+        How a page asks for it.
     spec : str
-        How it is asked for: a built-in name, or a file.
+        How the pipeline does: a built-in name, or a file.
     """
 
+    name: str
     spec: str
     character: Character = field(init=False)
 
@@ -79,7 +82,7 @@ class Actor:
         note = self.character.strange_to(poses) if self.spec not in BUILT_IN else ""
         return CharacterView(
             version="b" if version == "b" else "a",
-            name=self.spec,
+            name=self.name,
             title=self.character.name,
             model=f"models/{self.key}.glb",
             backwards="VRM" in self.character.model().json.get("extensions", {}),

@@ -71,6 +71,7 @@ class Reread(msgspec.Struct, frozen=True, tag="reread"):
     """A document was taken as it was on disk, and our changes laid over it."""
 
     document: Document
+    line: str
     content: str
     keep: bool
 

@@ -94,8 +94,8 @@ def line_of(speech: Speech, sounds: Sounds, name: str, title: str = "") -> LineD
 def speech_of(line: LineData, sounds: Sounds) -> Speech:
     """Return a line as engines take it."""
     return Speech(
-        PhoneTrack(_tier(line.phones), line.phone_set),
-        _tier(line.words),
+        PhoneTrack(tier_of(line.phones), line.phone_set),
+        tier_of(line.words),
         sounds.load(line.sound.key) if line.sound else None,
         line.text,
         line.language,
@@ -113,5 +113,6 @@ def _rows(tier: Tier) -> tuple[Row, ...]:
     return tuple((one.label, one.start, one.end) for one in tier)
 
 
-def _tier(rows: tuple[Row, ...]) -> Tier:
+def tier_of(rows: tuple[Row, ...]) -> Tier:
+    """Return rows as a tier."""
     return Tier(tuple(Interval(*row) for row in rows))

@@ -209,6 +209,7 @@ class Reread(Message, frozen=True, tag="reread", kw_only=True):
     """
 
     document: Document
+    line: str = ""
     keep: bool = True
 
 

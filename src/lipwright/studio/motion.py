@@ -15,7 +15,7 @@ from lipwright.speech import Speech
 from lipwright.studio.actors import Actor
 from lipwright.studio.changes import LineData
 from lipwright.studio.lines import Sounds, speech_of
-from lipwright.studio.messages import MotionView, StageName
+from lipwright.studio.messages import MotionView, Stage, StageName
 from lipwright.studio.packing import Window, frames_in, stage_curves
 
 RATE = 60.0
@@ -102,7 +102,7 @@ def motion_view(
     character: str,
 ) -> MotionView:
     """Return a motion as the page takes it."""
-    curves = ()
+    curves: tuple[Stage, ...] = ()
     if motion.engine is not None and motion.solved is not None:
         engine, solved = motion.engine, motion.solved
         curves = tuple(stage_curves(engine, solved, name, window) for name in stages)

@@ -273,6 +273,7 @@ export interface Reread {
   type: "reread";
   id?: number;
   document: "edits" | "labels" | "overrides" | "set";
+  line?: string;
   keep?: boolean;
 }
 

@@ -138,7 +138,7 @@ def find(
 
 def _phone(edit: Edit, phones: Sequence[Interval], words: Tier) -> Interval | None:
     if edit.word:
-        same = [word for word in words if _plain(word.label) == _plain(edit.word)]
+        same = [word for word in words if plain_word(word.label) == plain_word(edit.word)]
         if len(same) < edit.occurrence:
             return None
         word = same[edit.occurrence - 1]
@@ -154,10 +154,10 @@ def _phone(edit: Edit, phones: Sequence[Interval], words: Tier) -> Interval | No
 def same_place(one: Edit, other: Edit) -> bool:
     """Whether two edits hang on one phone and change one pose."""
     alike = (one.phone, one.occurrence, one.pose) == (other.phone, other.occurrence, other.pose)
-    return alike and _plain(one.word) == _plain(other.word)
+    return alike and plain_word(one.word) == plain_word(other.word)
 
 
-def _plain(word: str) -> str:
+def plain_word(word: str) -> str:
     """Return a word in one spelling: any case, either Unicode form, without punctuation."""
     folded = unicodedata.normalize("NFC", unicodedata.normalize("NFC", word).casefold())
     return "".join(letter for letter in folded if letter.isalnum() or _is_written(letter))

@@ -1,0 +1,179 @@
+"""Starting the studio: where it listens, what is opened, how it ends.
+
+A studio that is opened again with the same files takes the port and the token that it had,
+where the port is free: a page that is still there goes on by itself.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import secrets
+import socket
+import sys
+import webbrowser
+from collections.abc import Callable
+from contextlib import suppress
+from pathlib import Path
+
+import msgspec
+
+from lipwright.errors import InputError, MissingExtraError, OutputError
+from lipwright.files import write_atomically
+from lipwright.studio.desk import Place
+from lipwright.studio.drafts import Draft, draft_folder
+from lipwright.studio.opening import (
+    Given,
+    chosen_set,
+    edits_owner,
+    read_files,
+    sort_names,
+)
+from lipwright.studio.session import Session
+
+HOST = "127.0.0.1"
+PATIENCE = 1.0
+
+
+class Seat(msgspec.Struct, frozen=True):
+    """Where a studio listens, and the token of its link."""
+
+    port: int
+    token: str
+
+    @property
+    def link(self) -> str:
+        """The address of the page."""
+        return f"http://{HOST}:{self.port}/?token={self.token}"
+
+
+def open_session(given: Given, folder: Path | None = None) -> Session:
+    """Return what was named on the command line, opened.
+
+    Raises
+    ------
+    InputError
+        If a file cannot be opened; the message names it.
+    """
+    found = sort_names(given)
+    draft = Draft(draft_folder(given.key()))
+    paths: dict[Place, str] = {}
+    files: dict[Place, bytes] = {}
+    for name, content in read_files(found).items():
+        place: Place = ("set", "") if name == "set" else ("overrides", "")
+        paths[place] = chosen_set(found) if name == "set" else found.overrides
+        files[place] = content
+    for path in found.edits:
+        edits: Place = ("edits", edits_owner(path, found, given))
+        paths[edits], files[edits] = path, Path(path).read_bytes()
+    return Session(given, found, draft, folder or Path.cwd(), files, paths)
+
+
+def run(
+    given: Given,
+    port: int | None = None,
+    *,
+    browser: bool = True,
+    told: Callable[[str], None] = print,
+) -> None:
+    """Open the studio and serve it until it is interrupted.
+
+    Parameters
+    ----------
+    given : Given
+    port : int, optional
+        Where to listen; else where it did the last time, else any that is free.
+    browser : bool
+        Whether to open the page.
+    told : function
+        Called with lines for the user.
+
+    Raises
+    ------
+    MissingExtraError
+        If the extra ``studio`` is not installed.
+    InputError
+        If a file cannot be opened, or the port is taken.
+    """
+    try:
+        import uvicorn
+
+        from lipwright.studio.server import Server
+    except ImportError:
+        raise MissingExtraError.of("the studio", "studio") from None
+    folder = draft_folder(given.key())
+    known = _known_seat(folder)
+    if known is not None and _is_alive(known):
+        told(f"The studio is open already: {known.link}")
+        if browser:
+            webbrowser.open(known.link)
+        return
+    listening = _listen(port, known)
+    session = open_session(given)
+    seat = Seat(listening.getsockname()[1], known.token if known else secrets.token_urlsafe(24))
+    _keep_seat(folder, seat)
+    hosts = (f"{HOST}:{seat.port}", f"localhost:{seat.port}")
+    config = uvicorn.Config(
+        Server(session, seat.token, hosts).app,
+        log_level="warning",
+        ws="websockets-sansio",
+        ws_max_size=1 << 26,
+        timeout_graceful_shutdown=2,
+        lifespan="on",
+    )
+    told(f"The studio is open: {seat.link}\nEnd it with Ctrl-C.")
+    if browser:
+        webbrowser.open(seat.link)
+    with suppress(KeyboardInterrupt):
+        asyncio.run(uvicorn.Server(config).serve(sockets=[listening]))
+    left = session.desk.dirty(session.state)
+    kept = "what was not saved is kept, and offered when the same is opened again"
+    told(f"The studio is closed{f'; {kept}' if left else ''}.")
+
+
+def _listen(port: int | None, known: Seat | None) -> socket.socket:
+    wanted = [port] if port is not None else [*([known.port] if known else []), 0]
+    for number in wanted:
+        listening = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
+        if sys.platform != "win32":
+            listening.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        try:
+            listening.bind((HOST, number))
+            return listening
+        except (OSError, OverflowError):
+            listening.close()
+    raise InputError(
+        f"port {port} is taken, or may not be used",
+        expected="a free port",
+        cure="choose another with --port, or leave it out",
+    )
+
+
+def _seat_file(folder: Path) -> Path:
+    return folder / "seat.json"
+
+
+def _known_seat(folder: Path) -> Seat | None:
+    with suppress(OSError, msgspec.MsgspecError):
+        return msgspec.json.decode(_seat_file(folder).read_bytes(), type=Seat)
+    return None
+
+
+def _keep_seat(folder: Path, seat: Seat) -> None:
+    path = _seat_file(folder)
+    with suppress(OutputError):  # without it a page cannot go on by itself, that is all
+        write_atomically(path, msgspec.json.encode(seat))
+        with suppress(OSError):
+            path.chmod(0o600)
+
+
+def _is_alive(seat: Seat) -> bool:
+    from http.client import HTTPConnection, HTTPException
+
+    connection = HTTPConnection(HOST, seat.port, timeout=PATIENCE)
+    try:
+        connection.request("GET", "/alive", headers={"x-lipwright-token": seat.token})
+        return connection.getresponse().status == 200
+    except (OSError, HTTPException):
+        return False
+    finally:
+        connection.close()
