@@ -10,7 +10,7 @@ import msgspec
 
 from lipwright import __version__
 from lipwright.character import BUILT_IN
-from lipwright.engines.bigram.model import Pair
+from lipwright.engines.bigram.model import Pair, Settings
 from lipwright.engines.bigram.set_file import built_in_sets, check_label
 from lipwright.phones import load_phone_set
 from lipwright.phones.languages import languages
@@ -160,7 +160,7 @@ class Watcher:
     def _line(self, watch: Watch) -> Iterator[Answer]:
         session = self._session
         line, motion = session.line(watch.line), session.motion(watch.line)
-        if self._differs("line", line, session.cast.of.rules, session.cast.of.phone_set):
+        if self._differs("line", line, session.cast.of.rules.settings):
             yield line_view(line, motion, session.revision)
         if line.sound and self._differs(f"peaks {line.id}", line.sound.key):
             values, rate = peaks(session.sounds.load(line.sound.key))
@@ -192,9 +192,10 @@ class Watcher:
             )
 
     def _differs(self, name: str, *now: object) -> bool:
-        """Whether these are other objects than those of the last time; strings by value."""
+        """Whether these are other objects than those of the last time; small ones by value."""
         was = self._sent.get(name)
         self._sent[name] = now
         return was is None or not all(
-            a is b or (isinstance(a, str) and a == b) for a, b in zip(was, now, strict=True)
+            a is b or (isinstance(a, str | Settings) and a == b)
+            for a, b in zip(was, now, strict=True)
         )

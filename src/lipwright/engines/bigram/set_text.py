@@ -82,7 +82,9 @@ def set_document_bytes(of: SetDocument) -> bytes:
     if of.presets or of.rules is not None:
         presets = (f"    {quote(n)}: {_rules_text(r, '    ')}" for n, r in of.presets.items())
         lines += ['  "presets": {', *_joined(presets), "  },"]
-    return _whole([*lines, *_phones_text(of.phones), *_bigrams_text(of.bigrams, of.boundary)])
+    if of.phones or of.rules is not None:
+        lines += _phones_text(of.phones)
+    return _whole([*lines, *_bigrams_text(of.bigrams, of.boundary)])
 
 
 def overrides_bytes(of: OverridesDocument) -> bytes:
