@@ -6,6 +6,7 @@ export interface Ink {
   muted: string;
   line: string;
   page: string;
+  raised: string;
   wave: string;
   accent: string;
   soft: string;
@@ -22,6 +23,7 @@ export function readInk(canvas: HTMLCanvasElement): Ink {
     muted: ink("muted"),
     line: ink("line"),
     page: ink("page"),
+    raised: ink("raised"),
     wave: ink("wave"),
     accent: ink("accent"),
     soft: ink("accent-soft"),

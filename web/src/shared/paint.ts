@@ -38,6 +38,16 @@ type Context = CanvasRenderingContext2D;
 const LEGIBLE = 2;
 
 export const paint = {
+  curve,
+  inside,
+  level,
+  line,
+  rule,
+
+  row(context: Context, scene: Scene, row: Row): void {
+    PAINTERS[row.name](context, scene, row);
+  },
+
   still(context: Context, scene: Scene): void {
     for (const row of scene.rows) PAINTERS[row.name](context, scene, row);
   },
@@ -129,7 +139,7 @@ const PAINTERS: Record<RowName, (context: Context, scene: Scene, row: Row) => vo
 
   curves(context, scene, row) {
     const { performance, scale, shown, ink } = scene;
-    const inner = { ...row, top: row.top + 8, height: row.height - 14 };
+    const inner = inside(row);
     for (const share of [0, 0.5, 1])
       rule(context, scale.width, inner.top + share * inner.height, ink.line, share === 0.5);
     performance.controls.names.forEach((_, index) => {
@@ -139,6 +149,16 @@ const PAINTERS: Record<RowName, (context: Context, scene: Scene, row: Row) => vo
     if (shown.highlighted !== null) curve(context, scene, inner, shown.highlighted);
   },
 };
+
+/** The part of a row in which curves are drawn. */
+function inside(row: Row): Row {
+  return { ...row, top: row.top + 8, height: row.height - 14 };
+}
+
+/** The height at which a weight lies. */
+function level(row: Row, value: number): number {
+  return row.top + (1 - Math.min(Math.max(value, 0), 1.05)) * row.height;
+}
 
 function tier(context: Context, scene: Scene, row: Row, spans: Span[], colour: string): void {
   const { scale, ink } = scene;
@@ -202,7 +222,7 @@ function curve(context: Context, scene: Scene, row: Row, index: number): void {
   context.beginPath();
   const raw = (at: number) => controls.values[Math.min(Math.max(at, 0), last) * width + index];
   const x = (at: number) => scale.x(controls.start + at / controls.rate);
-  const y = (value: number) => row.top + (1 - Math.min(Math.max(value, 0), 1.05)) * row.height;
+  const y = (value: number) => level(row, value);
   const stride = Math.floor((end - first) / scale.width);
   for (let at = first; at <= end && stride > 1; at += stride) {
     const [low, high] = bounds(raw, at, Math.min(at + stride, last + 1));

@@ -51,6 +51,7 @@ export class Stage {
   #view: string | null = "three-quarter";
   #glide: { from: Vector3; to: Vector3; target: [Vector3, Vector3]; since: number } | null = null;
   #listeners: (() => void)[] = [];
+  #turned: (() => void)[] = [];
 
   constructor(canvas: HTMLCanvasElement, model: Model, used: string[]) {
     this.#renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true });
@@ -72,12 +73,33 @@ export class Stage {
       this.#view = null;
       this.#announce();
     });
-    this.#orbit.addEventListener("change", () => this.#announce());
+    this.#orbit.addEventListener("change", () => {
+      this.#announce();
+      for (const listener of this.#turned) listener();
+    });
   }
 
   /** Call `listener` when a new picture is needed or the view has changed. */
   onChange(listener: () => void): void {
     this.#listeners.push(listener);
+  }
+
+  /** Call `listener` when the camera has moved. */
+  onTurn(listener: () => void): void {
+    this.#turned.push(listener);
+  }
+
+  /** Look from where another stage looks. */
+  lookAs(other: Stage): void {
+    this.#glide = null;
+    this.#view = other.#view;
+    this.#look(other.#camera.position.clone(), other.#orbit.target.clone());
+  }
+
+  /** Give up the picture: another stage may draw on the same canvas. */
+  dispose(): void {
+    this.#orbit.dispose();
+    this.#renderer.dispose();
   }
 
   /** The name of the view, or null once the user has turned the model. */

@@ -74,6 +74,19 @@ export class Voice {
     source.start(0, from, GRAIN);
   }
 
+  /** Give the loudspeaker back: a browser has only a few. */
+  async close(): Promise<void> {
+    this.stop();
+    const context = this.#context;
+    this.#context = null;
+    await context?.close();
+  }
+
+  /** Whether sound runs now: the loudspeaker is on, and its time goes on. */
+  get running(): boolean {
+    return this.#context?.state === "running" && this.#source !== null;
+  }
+
   #connect(context: AudioContext): AudioBufferSourceNode {
     this.stop();
     const source = context.createBufferSource();

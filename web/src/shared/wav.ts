@@ -55,7 +55,7 @@ export function peaksOf(sound: Sound, block = 64): Peaks {
 
 /** Lowest and highest sample from `start` up to `end`, in seconds. */
 export function extent(peaks: Peaks, start: number, end: number): [number, number] {
-  const fine = (end - start) * peaks.rate < peaks.block;
+  const fine = peaks.samples.length > 0 && (end - start) * peaks.rate < peaks.block;
   const lows = fine ? peaks.samples : peaks.low;
   const highs = fine ? peaks.samples : peaks.high;
   const scale = fine ? peaks.rate : peaks.rate / peaks.block;
