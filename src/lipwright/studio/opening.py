@@ -30,6 +30,7 @@ from lipwright.studio.lines import Sounds, line_of
 from lipwright.studio.state import OwnSet, State
 
 CHARACTER = "lipwright/character"
+SPEECH = "lipwright/speech"
 LABELS = (".textgrid", ".lab", ".ctm", ".phn")
 SOUNDS = (".wav", ".flac", ".ogg", ".opus", ".mp3", ".aiff", ".aif", ".m4a", ".mp4")
 
@@ -146,11 +147,10 @@ def _kind_of_json(name: str) -> str:
         CHARACTER: "character",
         EDITS: "edits",
         ANIMATION: "animations",
+        SPEECH: "labels",
     }
     if kind in kinds:
         return kinds[kind]
-    if isinstance(said, dict) and "phones" in said:
-        return "labels"
     raise InputError(f"the format {kind!r}", where=name, expected=", ".join(kinds))
 
 
