@@ -20,6 +20,8 @@ export interface Tracks {
 export interface Shown {
   hidden: Set<number>;
   highlighted: number | null;
+  /** How strongly the others are seen beside it. */
+  others?: number;
 }
 
 export interface Scene {
@@ -238,7 +240,7 @@ function curve(context: Context, scene: Scene, row: Row, index: number): void {
   context.strokeStyle = colour;
   context.lineJoin = "round";
   context.lineWidth = highlighted ? 2.5 : 1.5;
-  context.globalAlpha = shown.highlighted !== null && !highlighted ? 0.25 : 1;
+  context.globalAlpha = shown.highlighted !== null && !highlighted ? (shown.others ?? 0.25) : 1;
   context.setLineDash(dash);
   context.stroke();
   context.setLineDash([]);

@@ -53,12 +53,13 @@ export class Stage {
   #listeners: (() => void)[] = [];
   #turned: (() => void)[] = [];
 
-  constructor(canvas: HTMLCanvasElement, model: Model, used: string[]) {
-    this.#renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true });
+  /** A `plain` stage has neither shadows nor smooth edges: for processors without a graphics card. */
+  constructor(canvas: HTMLCanvasElement, model: Model, used: string[], plain = false) {
+    this.#renderer = new WebGLRenderer({ canvas, antialias: !plain, alpha: true });
     this.#renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     this.#renderer.toneMapping = NeutralToneMapping;
     this.#renderer.toneMappingExposure = 1.12;
-    this.#renderer.shadowMap.enabled = true;
+    this.#renderer.shadowMap.enabled = !plain;
     this.#renderer.shadowMap.type = PCFShadowMap;
     this.#framing = framing(model.root, model.meshes, used, model.turned(used));
     this.#scene.add(model.root);

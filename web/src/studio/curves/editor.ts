@@ -5,6 +5,7 @@
 
 import { readInk, type Ink } from "../../shared/ink.ts";
 import { stroke } from "../../shared/palette.ts";
+import { planeContext } from "../../shared/software.ts";
 import { copied, keep } from "./clipboard.ts";
 import * as act from "./keys.ts";
 import type { Chosen, Curves, Domain, Key } from "./keys.ts";
@@ -586,7 +587,7 @@ export class CurveEditor {
 
   #paint(): void {
     const subject = this.#subject;
-    const context = this.canvas.getContext("2d") as CanvasRenderingContext2D;
+    const context = planeContext(this.canvas);
     const density = this.canvas.width / Math.max(this.plot.width, 1);
     context.setTransform(density, 0, 0, density, 0, 0);
     context.clearRect(0, 0, this.plot.width, this.plot.height);

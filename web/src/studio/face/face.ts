@@ -3,6 +3,7 @@
 import { sample, type Curves } from "../../shared/curves.ts";
 import { blink } from "../../shared/idle.ts";
 import { loadModel, type Model, type Turn } from "../../shared/model.ts";
+import { drawsInSoftware } from "../../shared/software.ts";
 import { Stage, VIEWS } from "../../shared/stage.ts";
 import { byId, h, write } from "../core/dom.ts";
 import type { Session } from "../core/session.ts";
@@ -39,7 +40,8 @@ class Head {
     this.stage?.dispose();
     // A canvas keeps the context that it has: another model begins on a new one.
     this.model = model;
-    this.stage = new Stage(this.canvas, model, view.known.length ? view.known : model.names);
+    const used = view.known.length ? view.known : model.names;
+    this.stage = new Stage(this.canvas, model, used, drawsInSoftware());
     this.stage.setView(view0 ?? "three-quarter");
     this.#driven = [];
   }

@@ -7,6 +7,7 @@ import { paint, type Scene } from "../../shared/paint.ts";
 import type { Player } from "../../shared/player.ts";
 import { hit, type Hit, type Row } from "../../shared/rows.ts";
 import { Scale } from "../../shared/scale.ts";
+import { planeContext } from "../../shared/software.ts";
 import { middle, spanAt, type Span } from "../../shared/spans.ts";
 import type { Peaks } from "../../shared/wav.ts";
 import type { LineView, MotionView } from "../protocol.ts";
@@ -179,7 +180,7 @@ export class LineCanvas {
   }
 
   draw(): void {
-    const context = this.canvas.getContext("2d") as CanvasRenderingContext2D;
+    const context = planeContext(this.canvas);
     const { width, height } = this.canvas;
     const density = width / this.scale.width;
     const player = this.#player;
@@ -192,7 +193,7 @@ export class LineCanvas {
     this.#lanes = lanesOf(this.#rows, this.#shown(), this.#looks.apart);
     const scene = this.#scene(player);
     if (this.#stale) {
-      const still = this.#still.getContext("2d") as CanvasRenderingContext2D;
+      const still = planeContext(this.#still);
       still.setTransform(density, 0, 0, density, 0, 0);
       still.clearRect(0, 0, width, height);
       this.#paintStill(still, scene);
@@ -261,6 +262,7 @@ export class LineCanvas {
       shown: {
         hidden,
         highlighted: active >= 0 && (staged || !hidden.has(active)) ? active : null,
+        others: staged ? 0.2 : 0.8,
       },
       ink: this.#ink,
       range: player.looping ? player.range : null,
