@@ -8,6 +8,9 @@ import { makeSplitters } from "./core/layout.ts";
 import type { Pair } from "./core/session.ts";
 import { Studio } from "./studio.ts";
 
+/** How many keys of the table are about playing. */
+const PLAYING = 14;
+
 makeSplitters();
 const studio = new Studio();
 const keys = keysOf(studio);
@@ -17,7 +20,8 @@ window.studio = api();
 
 function writeHelp(): void {
   for (const [title, table] of [
-    ["Everywhere", keys],
+    ["Playing", keys.slice(0, PLAYING)],
+    ["Looking and going", keys.slice(PLAYING)],
     ["In the curves", studio.panel.keys()],
   ] as const) {
     const list = h("dl");

@@ -98,11 +98,15 @@ export class Studio {
     });
     const open = (pair: Pair) => this.openPair(pair);
     this.matrix = new Matrix(session, open, (phone) => this.panel.openPhone(phone));
-    this.inLine = new InLine(session, (pair, time) => {
-      this.openPair(pair);
-      this.transport.player?.seek(time, true);
-      this.canvas.reveal(time, time);
-    });
+    this.inLine = new InLine(
+      session,
+      (pair, time) => {
+        this.openPair(pair);
+        this.transport.player?.seek(time, true);
+        this.canvas.reveal(time, time);
+      },
+      (start, end) => this.#loop(start, end),
+    );
     new Coverage(session, open, complain);
     this.edits = new Edits(session, {
       control: () => this.looks.control,
@@ -202,7 +206,7 @@ export class Studio {
   async sayText(text: string): Promise<void> {
     if (!text.trim()) return;
     try {
-      const voice = this.session.hello?.voices[0];
+      const voice = byId<HTMLSelectElement>("voice").value;
       const ask = { type: "say" as const, text: text.trim(), ...(voice ? { voice } : {}) };
       const { line } = await this.session.ask<Made>(ask);
       await this.openLine(line);
@@ -356,6 +360,11 @@ export class Studio {
     const names = [...new Set([hello.character.name, ...hello.characters])];
     put(characters, ...names.map((name) => h("option", { value: name }, name)));
     characters.value = hello.character.name;
+    const voices = byId<HTMLSelectElement>("voice");
+    if (voices.options.length !== hello.voices.length)
+      put(voices, ...hello.voices.map((voice) => h("option", {}, voice)));
+    if (!voices.value && hello.voices.includes("en-us")) voices.value = "en-us";
+    voices.hidden = hello.voices.length < 2;
     if (!this.session.watched.pair) {
       const first = hello.cells.find(({ pair }) => nameOf(pair) === "f-ah") ?? hello.cells[0];
       if (first) this.openPair(first.pair);
@@ -373,6 +382,9 @@ export class Studio {
     );
     select.value = watched.line ?? "";
     select.disabled = !lines.length;
+    byId("remove-line").hidden = !lines.length;
+    if (watched.line && !lines.some(({ id }) => id === watched.line))
+      this.session.watch({ line: "" });
     if (!watched.line && lines.length) void this.openLine(lines[0].id);
   }
 
@@ -397,8 +409,12 @@ export class Studio {
     const player = this.transport.player;
     if (!loop || !player || this.session.line?.line !== loop.line || !player.voice) return;
     this.#pendingLoop = null;
-    player.setRange({ start: loop.start, end: loop.end });
-    player.play();
+    this.#loop(loop.start, loop.end);
+  }
+
+  #loop(start: number, end: number): void {
+    this.transport.player?.setRange({ start, end });
+    this.transport.player?.play();
   }
 
   #showPeaks(): void {
@@ -431,7 +447,6 @@ export class Studio {
     named("theme", isDark() ? "sun" : "moon", "Light or dark");
     named("hear-word", "sound", "Hear this word, looped");
     byId("hear-word").title = "Hear this word, looped";
-    write(byId("clear"), "As beneath");
     byId("clear").title =
       "Take this pair out of what changes go to: what lies beneath speaks again";
     click("undo", () => this.session.undo());
@@ -443,6 +458,12 @@ export class Studio {
     });
     click("keys", () => this.help());
     click("open-sound", () => this.#recording.pick());
+    put(byId("remove-line"), icon("close"), h("span", { class: "hidden" }, "Take this line away"));
+    byId("remove-line").title = "Take this line away";
+    click("remove-line", () => {
+      const { line } = this.session.watched;
+      if (line) void this.session.edit({ type: "removeLine", line });
+    });
     click("edit-phone", () => this.navigator.show("edits"));
     byId<HTMLFormElement>("say").addEventListener("submit", (event) => {
       event.preventDefault();
@@ -565,7 +586,7 @@ export class Studio {
     const button = byId("edit-phone");
     this.edits.choose(index);
     button.hidden = !phone || !this.edits.place;
-    if (phone) write(button, `Correct /${phone.label}/ here…`);
+    if (phone) write(button, `Correct /${phone.label}/…`);
   }
 
   /** Open the pair that begins with a phone. */

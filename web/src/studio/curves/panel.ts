@@ -167,6 +167,7 @@ export class CurvePanel {
     label.className = `badge ${badge.replace(" ", "-")}`;
     if (view && document.activeElement !== this.#word) this.#word.value = view.word;
     const clear = byId<HTMLButtonElement>("clear");
+    write(clear, session.target === "overrides" ? "Back to the set’s" : "Take out");
     clear.disabled = !(view && (session.target === "overrides" ? view.overrideCurves : true));
     const milliseconds = Math.round(this.#duration() * 1000);
     const found = session.line?.pairs.some(
@@ -174,9 +175,7 @@ export class CurvePanel {
     );
     write(
       byId("as-at"),
-      this.mode === "pair"
-        ? `spline as at ${milliseconds} ms${found ? ", its length in the line" : ""}`
-        : "",
+      this.mode === "pair" ? `spline at ${milliseconds} ms${found ? ", as in the line" : ""}` : "",
     );
   }
 

@@ -188,6 +188,7 @@ export class Face {
     for (const version of ["a", "b"] as const) {
       const { canvas, stage } = this.#heads[version];
       canvas.hidden = !both && this.shown !== version;
+      byId(`which-${version}`).hidden = !both;
       const own = both ? width / 2 : width;
       canvas.style.width = `${own}px`;
       canvas.style.left = both && version === "b" ? `${own}px` : "0";

@@ -13,7 +13,7 @@ import type { Peaks } from "../../shared/wav.ts";
 import type { LineView, MotionView } from "../protocol.ts";
 import type { StageName } from "./palette.ts";
 import { edgeAt, lanesOf, movedEdge, roomOf, rowsOf, type Lane } from "./rows.ts";
-import { paintStages } from "./stages.ts";
+import { paintResult, paintStages } from "./stages.ts";
 
 const READABLE = 130;
 const CURVE_REACH = 14;
@@ -190,7 +190,8 @@ export class LineCanvas {
     const time = player.time();
     if (!this.#grip && this.scale.follow(time)) this.#turned();
     this.#rows = rowsOf(height / density, { overview: this.scale.zoomed, wave: !!this.#peaks });
-    this.#lanes = lanesOf(this.#rows, this.#shown(), this.#looks.apart);
+    const chosen = this.#controls.names.indexOf(this.#looks.control);
+    this.#lanes = lanesOf(this.#rows, this.#shown(), this.#looks.apart, chosen);
     const scene = this.#scene(player);
     if (this.#stale) {
       const still = planeContext(this.#still);
@@ -288,18 +289,15 @@ export class LineCanvas {
       }
     for (const lane of this.#lanes) {
       if (apart) this.#paintLane(context, lane);
-      if (lane !== own || !on.size || apart) paint.curve(context, scene, lane.row, lane.control);
+      if (lane !== own || !on.size) paint.curve(context, scene, lane.row, lane.control);
     }
     if (!own || !this.#motion || !on.size) return;
-    if (!apart) {
-      context.globalAlpha = 0.45;
-      paint.curve(context, scene, own.row, own.control);
-      context.globalAlpha = 1;
-    }
     const { dark } = this.#ink;
     const { scale } = this;
     const motion = this.#motion;
-    paintStages(context, { motion, control, on, dark, figures, scale, row: own.row });
+    const { row: lane } = own;
+    paintStages(context, { motion, control, on, dark, figures, scale, row: lane });
+    paintResult(context, this.#controls, own, scale, this.#ink.text);
   }
 
   #paintLane(context: CanvasRenderingContext2D, { control, row }: Lane): void {

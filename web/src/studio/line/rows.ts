@@ -17,15 +17,23 @@ export function rowsOf(height: number, has: { overview: boolean; wave: boolean }
   return layOut(height, has);
 }
 
-/** One lane for each control that is shown, or all in one. */
-export function lanesOf(rows: Row[], shown: number[], apart: boolean): Lane[] {
+/** Pixels that the lane of the chosen control has at least, where there is room. */
+const CHOSEN = 64;
+
+/** One lane for each control that is shown, the chosen one's the tallest; or all in one. */
+export function lanesOf(rows: Row[], shown: number[], apart: boolean, chosen: number): Lane[] {
   const row = rows[rows.length - 1];
   if (!apart || !shown.length) return shown.map((control) => ({ control, row: paint.inside(row) }));
-  const height = row.height / shown.length;
-  return shown.map((control, index) => ({
-    control,
-    row: { ...row, top: row.top + index * height + 3, height: Math.max(height - 6, 4) },
-  }));
+  const even = row.height / shown.length;
+  const tall = shown.includes(chosen) ? Math.max(even, Math.min(CHOSEN, row.height / 2)) : even;
+  const rest = (row.height - tall) / Math.max(shown.length - 1, 1);
+  let top = row.top;
+  return shown.map((control) => {
+    const height = control === chosen ? tall : shown.includes(chosen) ? rest : even;
+    const lane = { ...row, top: top + 3, height: Math.max(height - 6, 4) };
+    top += height;
+    return { control, row: lane };
+  });
 }
 
 /** The phone whose end lies at `x`: -1 for the start of the first, null for none. */

@@ -1,10 +1,12 @@
 /** The curves of the run-time stages, drawn over those of the result. */
 
+import { frameCount, type Curves } from "../../shared/curves.ts";
 import { paint } from "../../shared/paint.ts";
 import type { Row } from "../../shared/rows.ts";
 import type { Scale } from "../../shared/scale.ts";
 import { unpack } from "../core/packed.ts";
 import type { MotionView, StageCurve } from "../protocol.ts";
+import type { Lane } from "./rows.ts";
 import { partStroke, stageStroke, type StageName, type StageStroke } from "./palette.ts";
 
 export interface Piece {
@@ -91,4 +93,30 @@ function keys(
     if (times[at] < scale.start || times[at] > scale.end || values[at] === 0) continue;
     context.fillRect(scale.x(times[at]) - 2, paint.level(row, values[at]) - 2, 4, 4);
   }
+}
+
+/** The result that is exported, in the colour of text: none of the stages has it. */
+export function paintResult(
+  context: CanvasRenderingContext2D,
+  controls: Curves,
+  { control, row }: Lane,
+  scale: Scale,
+  colour: string,
+): void {
+  const width = controls.names.length;
+  const last = frameCount(controls) - 1;
+  const frame = (time: number) => Math.round((time - controls.start) * controls.rate);
+  const from = Math.max(frame(scale.start) - 1, 0);
+  const to = Math.min(frame(scale.end) + 1, last);
+  context.beginPath();
+  for (let at = from; at <= to; at++) {
+    const value = controls.values[at * width + control];
+    const rests = value === 0 && (controls.values[(at - 1) * width + control] ?? 0) === 0;
+    const x = scale.x(controls.start + at / controls.rate);
+    context[rests ? "moveTo" : "lineTo"](x, paint.level(row, value));
+  }
+  context.strokeStyle = colour;
+  context.lineWidth = 2;
+  context.lineJoin = "round";
+  context.stroke();
 }

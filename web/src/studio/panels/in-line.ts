@@ -7,13 +7,19 @@ import { nameOf, type Pair, type Session } from "../core/session.ts";
 export class InLine {
   #session: Session;
   #open: (pair: Pair, time: number) => void;
+  #loop: (start: number, end: number) => void;
   #host = byId("in-line");
   #items: HTMLElement[] = [];
   #now = -1;
 
-  constructor(session: Session, open: (pair: Pair, time: number) => void) {
+  constructor(
+    session: Session,
+    open: (pair: Pair, time: number) => void,
+    loop: (start: number, end: number) => void,
+  ) {
     this.#session = session;
     this.#open = open;
+    this.#loop = loop;
     session.on(["line", "cells"], () => this.update());
     this.update();
   }
@@ -26,7 +32,7 @@ export class InLine {
       const words = "Type a line below: the pairs that it is made of are listed here.";
       return put(this.#host, h("p", { class: "empty" }, words));
     }
-    this.#items = line.pairs.map(({ pair, first, boundary }, index) => {
+    this.#items = line.pairs.map(({ pair, first, boundary, last }, index) => {
       const cell = this.#session.cells.get(nameOf(pair));
       const word = line.classes[index + 1]?.word || line.classes[index]?.word || "";
       const state = cell?.overridden ? "override" : cell?.state === "drawn" ? "" : cell?.state;
@@ -39,7 +45,9 @@ export class InLine {
           {
             type: "button",
             "aria-current": chosen,
+            title: "Click to edit; double-click to loop",
             onclick: () => this.#open(pair, boundary),
+            ondblclick: () => this.#loop(first, last),
           },
           h("span", { class: "pair" }, pair.join(" – ")),
           h("span", { class: "word" }, word),

@@ -107,7 +107,7 @@ export class Matrix {
     if (!count) return;
     const box = byId("navigator");
     const wide = (box.clientWidth - HEAD.side - 12) / count;
-    const tall = (box.clientHeight - HEAD.top - 74) / count;
+    const tall = (box.clientHeight - HEAD.top - 96) / count;
     const size = Math.max(Math.min(wide, tall, LARGEST), SMALLEST);
     this.#host.style.gridTemplateColumns = `${HEAD.side}px repeat(${count}, ${size}px)`;
     this.#host.style.gridTemplateRows = `${HEAD.top}px repeat(${count}, ${size}px)`;
