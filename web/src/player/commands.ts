@@ -6,7 +6,8 @@ import type { Key } from "../shared/keyboard.ts";
 import type { Legend } from "./legend.ts";
 import type { Player } from "../shared/player.ts";
 import { middle, neighbour } from "../shared/spans.ts";
-import { VIEWS, type Stage } from "../shared/stage.ts";
+import type { Stage } from "../shared/stage.ts";
+import { VIEWS } from "../shared/views.ts";
 import type { Timeline } from "./timeline.ts";
 
 export const SPEEDS = [0.25, 0.5, 0.75, 1];

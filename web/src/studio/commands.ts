@@ -2,7 +2,7 @@
 
 import type { Key } from "../shared/keyboard.ts";
 import { middle, neighbour } from "../shared/spans.ts";
-import { VIEWS } from "../shared/stage.ts";
+import { VIEWS } from "../shared/views.ts";
 import type { Studio } from "./studio.ts";
 import { SPEEDS } from "./line/transport.ts";
 

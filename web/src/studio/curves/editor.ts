@@ -120,7 +120,7 @@ export class CurveEditor {
     }
     if (subject) this.plot.show(subject.domain);
     if (other) this.plot.fit();
-    if (!this.#curves[this.active]) this.active = strongest(this.#curves) || this.active;
+    if (other && !this.#curves[this.active]) this.active = strongest(this.#curves) || this.active;
     this.#keepValid();
     this.refresh();
     this.#hooks.chosen();
@@ -209,8 +209,10 @@ export class CurveEditor {
   remove(): void {
     if (!this.count) return;
     const count = this.count;
+    const first = Math.min(...(this.#chosen.get(this.active) ?? [0]));
     const curves = act.remove(this.#curves, this.#chosen, this.domain);
     this.#chosen.clear();
+    if (curves[this.active]) this.#chosen.set(this.active, new Set([Math.max(first - 1, 0)]));
     this.#apply(curves, "");
     this.#hooks.say(`${count} keys taken away`);
   }

@@ -2,9 +2,10 @@
 
 import { sample, type Curves } from "../../shared/curves.ts";
 import { blink } from "../../shared/idle.ts";
-import { loadModel, type Model, type Turn } from "../../shared/model.ts";
+import type { Model, Turn } from "../../shared/model.ts";
 import { drawsInSoftware } from "../../shared/software.ts";
-import { Stage, VIEWS } from "../../shared/stage.ts";
+import type { Stage } from "../../shared/stage.ts";
+import { VIEWS } from "../../shared/views.ts";
 import { byId, h, write } from "../core/dom.ts";
 import type { Session } from "../core/session.ts";
 import type { CharacterView } from "../protocol.ts";
@@ -19,6 +20,9 @@ const SHORT: Record<string, string> = {
 };
 
 export type Shown = "a" | "b" | "both";
+
+/** All that draws in space comes after the page is seen: it is most of what is to be read. */
+const three = () => import("./space.ts");
 
 /** One canvas with one character on it. */
 class Head {
@@ -36,6 +40,7 @@ class Head {
     const turns: Record<string, Turn> = {};
     for (const { channel, node, axis, degrees } of view.joints)
       turns[channel] = { node, axis, degrees };
+    const { loadModel, Stage } = await three();
     const model = await loadModel(glb, view.backwards, turns);
     this.stage?.dispose();
     // A canvas keeps the context that it has: another model begins on a new one.
