@@ -447,8 +447,7 @@ export class Studio {
     named("theme", isDark() ? "sun" : "moon", "Light or dark");
     named("hear-word", "sound", "Hear this word, looped");
     byId("hear-word").title = "Hear this word, looped";
-    byId("clear").title =
-      "Take this pair out of what changes go to: what lies beneath speaks again";
+    put(byId("clear"), icon("reset"));
     click("undo", () => this.session.undo());
     click("redo", () => this.session.redo());
     click("save", () => void this.saving.open());

@@ -167,7 +167,10 @@ export class CurvePanel {
     label.className = `badge ${badge.replace(" ", "-")}`;
     if (view && document.activeElement !== this.#word) this.#word.value = view.word;
     const clear = byId<HTMLButtonElement>("clear");
-    write(clear, session.target === "overrides" ? "Back to the set’s" : "Take out");
+    clear.title = clear.ariaLabel =
+      session.target === "overrides"
+        ? "Back to the set’s own curves of this pair"
+        : "Take this pair out of the set";
     clear.disabled = !(view && (session.target === "overrides" ? view.overrideCurves : true));
     const milliseconds = Math.round(this.#duration() * 1000);
     const found = session.line?.pairs.some(

@@ -88,7 +88,8 @@ export class SaveDialog {
     for (const each of files) {
       const line = this.#session.lines.find(({ id }) => id === each.line)?.title;
       const words = `${NAMES[each.document]}${line ? ` of “${line}”` : ""}${each.dirty ? " •" : ""}`;
-      select.append(h("option", { selected: each === file }, words));
+      const own = each.document === file.document && each.line === file.line;
+      select.append(h("option", { selected: own }, words));
     }
     select.addEventListener("change", () => {
       this.#said = "";
