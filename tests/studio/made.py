@@ -39,7 +39,7 @@ def desk(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     folder.mkdir()
     monkeypatch.chdir(folder)
     (folder / "mine.json").write_bytes(set_bytes(load_set("english")))
-    (folder / "low.lab.json").write_text(LOW, "utf-8")
+    (folder / "low.json").write_text(LOW, "utf-8")
     (folder / "low.wav").write_bytes(sound().wav_bytes())
     return folder
 

@@ -85,7 +85,7 @@ def test_a_pair_that_comes_and_goes_stands_where_it_stood(desk: Path) -> None:
 
 
 def test_overrides_are_a_new_file_that_the_command_line_reads(desk: Path) -> None:
-    session = opened("english", "low.lab.json")
+    session = opened("english", "low.json")
     session.edit(DrawCurve("overrides", ("l", "ow"), "W", ((0, 0), (0.9, 0.05), (1, 0))))
     session.edit(SetRule("overrides", "gain", ("wide",), "", 0.5))
     session.edit(SetRule("overrides", "pose", ("open",), "limit", 9))
@@ -96,7 +96,7 @@ def test_overrides_are_a_new_file_that_the_command_line_reads(desk: Path) -> Non
     assert preview.is_new
     path = save(session, OVER, "troll.json")
     assert path == desk / "troll.json"
-    performance = animate(from_labels("low.lab.json"), overrides=path)
+    performance = animate(from_labels("low.json"), overrides=path)
     now = session.motion("1").animation
     assert performance.animation.values.tobytes() == now.values.tobytes()
     assert opened("english", "troll.json").state.overrides.gains == {"wide": 0.5}
@@ -104,23 +104,23 @@ def test_overrides_are_a_new_file_that_the_command_line_reads(desk: Path) -> Non
 
 
 def test_edits_are_a_file_that_animate_takes(desk: Path) -> None:
-    session = opened("english", "low.lab.json")
+    session = opened("english", "low.json")
     session.edit(PutEdit("1", Edit("low", 2, "open", level=0.9, label="ow")))
     drawn = ((0.0, 0.2), (0.5, 0.8), (1.0, 0.1))
     session.edit(PutEdit("1", Edit("map", 1, "PBM", hold=0.03, keys=drawn, unlocked=True)))
     path = save(session, EDITS, "low.edits.json")
     assert read_edits(path) == session.state.lines["1"].edits
-    performance = animate(from_labels("low.lab.json"), edits=path)
+    performance = animate(from_labels("low.json"), edits=path)
     now = session.motion("1").animation
     assert performance.animation.values.tobytes() == now.values.tobytes()
-    again = opened("english", "low.lab.json", "low.edits.json")
+    again = opened("english", "low.json", "low.edits.json")
     assert again.state.lines["1"].edits == session.state.lines["1"].edits
     session.edit(PutEdit("1", Edit("low", 2, "open", level=0.8, label="ow")))
     assert len(changed_lines(shown(session, EDITS).diff)) == 2
 
 
 def test_moved_boundaries_are_saved_as_labels(desk: Path) -> None:
-    session = opened("english", "low.lab.json")
+    session = opened("english", "low.json")
     session.edit(MoveBoundary("1", 3, 0.48))
     assert ("labels", "1") in session.desk.dirty(session.state)
     path = save(session, ("labels", "1"), "low.TextGrid")
@@ -202,7 +202,7 @@ def test_a_file_that_is_gone_is_written_again(desk: Path) -> None:
 
 
 def test_a_name_that_exists_and_was_not_opened_is_refused(desk: Path) -> None:
-    session = opened("english", "low.lab.json")
+    session = opened("english", "low.json")
     session.edit(DrawCurve("overrides", ("f", "ah"), "open", TRIANGLE))
     before = (desk / "mine.json").read_bytes()
     preview = shown(session, OVER, "mine.json")
@@ -224,7 +224,7 @@ def test_a_page_cannot_name_other_places(desk: Path, name: str) -> None:
     session.edit(DrawCurve("overrides", ("f", "ah"), "open", TRIANGLE))
     with pytest.raises(LipwrightError, match="the name"):
         session.save(OVER, name, "none")
-    assert sorted(path.name for path in desk.iterdir()) == ["low.lab.json", "low.wav", "mine.json"]
+    assert sorted(path.name for path in desk.iterdir()) == ["low.json", "low.wav", "mine.json"]
 
 
 def test_a_read_only_file_is_refused_with_a_reason(desk: Path) -> None:

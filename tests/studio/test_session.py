@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -145,7 +146,7 @@ def play(session: Session, todo: list[tuple[str, object, str]]) -> Iterator[None
 def test_whatever_is_done_undo_leads_back_and_redo_forth_again(
     desk: Path, todo: list[tuple[str, object, str]], own: bool
 ) -> None:
-    session = opened("mine.json" if own else "english", "low.lab.json")
+    session = opened("mine.json" if own else "english", "low.json")
     session.drop_draft() if session.left else None
     start = contents(session)
     for _ in play(session, todo):
@@ -156,7 +157,7 @@ def test_whatever_is_done_undo_leads_back_and_redo_forth_again(
     session.redo(far)
     assert contents(session) == end
     assert_cast_is_whole(session)
-    again = opened("mine.json" if own else "english", "low.lab.json")
+    again = opened("mine.json" if own else "english", "low.json")
     if again.left is not None:
         assert contents(again) == start
         again.take_draft()
@@ -180,7 +181,7 @@ def assert_cast_is_whole(session: Session) -> None:
 
 
 def test_a_drag_is_one_step_of_undo(desk: Path) -> None:
-    session = opened("english", "low.lab.json")
+    session = opened("english", "low.json")
     for height in (0.1, 0.2, 0.3):
         drawn = ((0.0, 0.0), (0.4, height), (1.0, 0.0))
         session.edit(DrawCurve("overrides", ("f", "ah"), "open", drawn), "drag 1")
@@ -195,7 +196,7 @@ def test_a_drag_is_one_step_of_undo(desk: Path) -> None:
 
 
 def test_drawing_in_overrides_begins_with_what_the_set_has(desk: Path) -> None:
-    session = opened("english", "low.lab.json")
+    session = opened("english", "low.json")
     was = session.cast.of.bigrams["f", "ah"].curves
     session.edit(DrawCurve("overrides", ("f", "ah"), "open", TRIANGLE))
     now = session.cast.of.bigrams["f", "ah"]
@@ -207,7 +208,7 @@ def test_drawing_in_overrides_begins_with_what_the_set_has(desk: Path) -> None:
 
 
 def test_an_override_moves_the_face_and_a_cleared_one_no_more(desk: Path) -> None:
-    session = opened("english", "low.lab.json")
+    session = opened("english", "low.json")
     before = session.motion("1").animation
     session.edit(DrawCurve("overrides", ("l", "ow"), "W", ((0.0, 0.0), (0.9, 0.1), (1.0, 0.0))))
     after = session.motion("1").animation
@@ -218,7 +219,7 @@ def test_an_override_moves_the_face_and_a_cleared_one_no_more(desk: Path) -> Non
 
 
 def test_dragging_a_boundary_takes_the_word_along(desk: Path) -> None:
-    session = opened("english", "low.lab.json")
+    session = opened("english", "low.json")
     session.edit(MoveBoundary("1", 3, 0.48))
     line = session.state.lines["1"]
     assert line.phones[3][2] == line.phones[4][1] == 0.48
@@ -229,7 +230,7 @@ def test_dragging_a_boundary_takes_the_word_along(desk: Path) -> None:
 
 
 def test_a_boundary_keeps_clear_of_its_neighbours(desk: Path) -> None:
-    session = opened("english", "low.lab.json")
+    session = opened("english", "low.json")
     session.edit(MoveBoundary("1", 3, 5.0))
     assert session.state.lines["1"].phones[4][1] == pytest.approx(0.545)
     session.edit(MoveBoundary("1", 3, -5.0))
@@ -237,7 +238,7 @@ def test_a_boundary_keeps_clear_of_its_neighbours(desk: Path) -> None:
 
 
 def test_an_edit_of_the_same_place_is_replaced(desk: Path) -> None:
-    session = opened("english", "low.lab.json")
+    session = opened("english", "low.json")
     session.edit(PutEdit("1", Edit("low", 2, "open", gain=2)))
     session.edit(PutEdit("1", Edit("LOW", 2, "open", gain=3)))
     session.edit(PutEdit("1", Edit("low", 1, "open", gain=3)))
@@ -247,7 +248,7 @@ def test_an_edit_of_the_same_place_is_replaced(desk: Path) -> None:
 
 
 def test_edits_survive_another_recording_and_lost_ones_are_told(desk: Path) -> None:
-    session = opened("english", "low.lab.json")
+    session = opened("english", "low.json")
     session.edit(PutEdit("1", Edit("low", 2, "open", level=0.9, label="ow")))
     session.edit(PutEdit("1", Edit("low", 2, "W", level=0.9, label="aa")))
     for phone in (6, 7):
@@ -289,11 +290,10 @@ def test_edits_survive_another_recording_and_lost_ones_are_told(desk: Path) -> N
 def test_what_makes_no_sense_is_refused_and_changes_nothing(
     desk: Path, change: AnyChange, words: str
 ) -> None:
-    session = opened("mine.json", "low.lab.json")
+    session = opened("mine.json", "low.json")
     before, records = contents(session), session.draft.read()
-    with pytest.raises(InputError, match=".*") as refused:
+    with pytest.raises(InputError, match=re.escape(words)):
         session.edit(change)
-    assert words in str(refused.value)
     assert contents(session) == before
     assert session.draft.read() == records
     assert session.history.undo_steps == 0

@@ -145,12 +145,12 @@ class Watcher:
     def news(self) -> Iterator[Answer]:
         """Yield what became different of what is watched."""
         watch, session = self._watch, self._session
+        if watch.line and (watch.line in session.state.lines or watch.line in session.examples):
+            yield from self._line(watch)
         if watch.pair is not None:
             yield from self._if_new("pair", bigram_view(session.cast, watch.pair, 0))
         if watch.phone:
             yield from self._if_new("phone", phone_view(session.cast, watch.phone, 0))
-        if watch.line and (watch.line in session.state.lines or watch.line in session.examples):
-            yield from self._line(watch)
 
     def _if_new(self, name: str, view: Any) -> Iterator[Answer]:
         if self._sent.get(name) != view:

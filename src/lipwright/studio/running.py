@@ -133,11 +133,13 @@ def run(
 def _listen(port: int | None, known: Seat | None) -> socket.socket:
     wanted = [port] if port is not None else [*([known.port] if known else []), 0]
     for number in wanted:
-        listening = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
+        # asyncio sends small answers at once only where the protocol is named.
+        listening = socket.socket(socket.AF_INET, socket.SOCK_STREAM, socket.IPPROTO_TCP)
         if sys.platform != "win32":
             listening.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         try:
             listening.bind((HOST, number))
+            listening.listen(128)  # a page that comes before all is open waits
             return listening
         except (OSError, OverflowError):
             listening.close()

@@ -59,7 +59,23 @@ def variant_of(session: Session, wanted: Variant, name: str) -> Other:
 
 
 def _bigram(session: Session, engine: BigramEngine, line: LineData, actor: Actor) -> Other:
-    return Other(session.motions.of(engine, line, actor, line.edits), actor)
+    """A line by another engine; edits of poses that its set has not are left out, and told."""
+    names = engine.rules.names
+    strange = dict.fromkeys(edit.pose for edit in line.edits if edit.pose not in names)
+    if not strange:
+        return Other(session.motions.of(engine, line, actor, line.edits), actor)
+    key = (engine, line, actor, _KNOWN)
+
+    def made() -> Motion:
+        known = tuple(edit for edit in line.edits if edit.pose in names)
+        motion = session.motions.of(engine, line, actor, known)
+        note = f"edits of {', '.join(strange)} are left out: {engine.of.name} has no such pose"
+        return replace(motion, notes=(*motion.notes, note))
+
+    return Other(session.motions.get(key, made), actor)
+
+
+_KNOWN = object()
 
 
 def _preset(session: Session, name: str) -> BigramEngine:
