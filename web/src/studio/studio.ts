@@ -309,6 +309,7 @@ export class Studio {
     });
     session.on("hello", () => this.#greet());
     session.on(["hello", "line list"], () => this.#listLines());
+    session.on("character", () => this.#listCharacters());
     session.on("history", () => this.#history());
     session.on("line", () => this.#showLine());
     session.on("peaks", () => this.#showPeaks());
@@ -356,10 +357,7 @@ export class Studio {
     byId("set-name").title = hello.setAbout;
     document.title = `${hello.setName} – Lipwright studio`;
     byId<HTMLSelectElement>("target").value = this.session.target;
-    const characters = byId<HTMLSelectElement>("character");
-    const names = [...new Set([hello.character.name, ...hello.characters])];
-    put(characters, ...names.map((name) => h("option", { value: name }, name)));
-    characters.value = hello.character.name;
+    this.#listCharacters();
     const voices = byId<HTMLSelectElement>("voice");
     if (voices.options.length !== hello.voices.length)
       put(voices, ...hello.voices.map((voice) => h("option", {}, voice)));
@@ -370,6 +368,18 @@ export class Studio {
       if (first) this.openPair(first.pair);
     }
     this.#looksChanged();
+  }
+
+  #listCharacters(): void {
+    const { hello, character } = this.session;
+    const now = character.a;
+    if (!hello || !now) return;
+    const select = byId<HTMLSelectElement>("character");
+    const title = (name: string) => (name === now.name ? now.title || name : name);
+    const names = [...new Set([now.name, ...hello.characters])];
+    put(select, ...names.map((name) => h("option", { value: name }, title(name))));
+    select.value = now.name;
+    select.title = now.notes.join("\n");
   }
 
   #listLines(): void {

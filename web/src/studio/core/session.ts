@@ -71,7 +71,7 @@ export class Session {
   motion: { a: Motion | null; b: Motion | null } = { a: null, b: null };
   character: { a: CharacterView | null; b: CharacterView | null } = { a: null, b: null };
   peaks = new Map<string, LinePeaks>();
-  progress: { share: number; what: string } | null = null;
+  progress: { id: number; share: number; what: string } | null = null;
   /** Where changes of the set go. */
   target: "overrides" | "set" = "overrides";
   readonly connection: Connection;
@@ -162,6 +162,10 @@ export class Session {
   }
 
   #hear(answer: Answer): void {
+    if (answer.type !== "progress" && answer.id && answer.id === this.progress?.id) {
+      this.progress = null;
+      this.#announce("progress");
+    }
     switch (answer.type) {
       case "hello":
         return this.#greet(answer);
@@ -199,11 +203,6 @@ export class Session {
         return this.#announce("files");
       case "progress":
         this.progress = answer.share < 1 ? answer : null;
-        return this.#announce("progress");
-      case "made":
-      case "failed":
-        if (!this.progress) return;
-        this.progress = null;
         return this.#announce("progress");
     }
   }

@@ -73,7 +73,7 @@ export function editSubject(session: Session, place: PhonePlace): Subject | null
     ghosts: resultOf(session, phone.start, phone.end, Object.keys(curves).length ? SHOWN : START),
     poses: session.poseNames(),
     boundary: null,
-    stretches: [{ label: phone.label, from: 0, to: 1 }],
+    stretches: [{ label: place.own || phone.label, from: 0, to: 1 }],
     spline: "linear",
     softness: new Map(),
   };

@@ -185,7 +185,7 @@ export class CurvePanel {
   #title(): string {
     if (this.mode === "phone") return `/${this.#session.phone?.phone ?? ""}/ alone`;
     if (this.mode === "edit" && this.place)
-      return `/${this.place.label}/ in “${this.place.word || "silence"}”`;
+      return `/${this.place.own || this.place.label}/ in “${this.place.word || "silence"}”`;
     const pair = this.#session.watched.pair;
     return pair ? `${pair[0]} – ${pair[1]}` : "";
   }

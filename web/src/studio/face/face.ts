@@ -178,7 +178,8 @@ export class Face {
 
   /** Two faces side by side are looked at from the same side. */
   #follow(version: "a" | "b"): void {
-    if (this.#following || this.shown !== "both") return;
+    const { a, b } = this.#heads;
+    if (this.#following || this.shown !== "both" || a.address !== b.address) return;
     this.#following = true;
     const other = this.#heads[version === "a" ? "b" : "a"].stage;
     const own = this.#heads[version].stage;

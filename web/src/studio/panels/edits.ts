@@ -120,7 +120,11 @@ export class Edits {
     );
     put(
       this.#chosen,
-      h("p", { class: "section" }, `/${place.label}/ in “${place.word}”, in this line only`),
+      h(
+        "p",
+        { class: "section" },
+        `/${place.own || place.label}/ in “${place.word}”, in this line only`,
+      ),
       h("div", { class: "ask" }, poses, draw),
       ...NUMBERS.map((number) => this.#number(place, edit, number)),
       edit.keys ? this.#unlocked(edit) : null,
