@@ -81,8 +81,8 @@ def test_two_tabs_stay_in_step(studio: Live) -> None:
         changed = one.ask("edit", "changed", change=DRAW)
         heard = other.hear("changed")
         assert (heard.id, heard.revision, heard.cells) == (0, changed.revision, changed.cells)
-        assert other.hear("bigram").override_curves["open"][1] == (0.4, 0.7)
         assert other.hear("motion").revision == changed.revision
+        assert other.hear("bigram").override_curves["open"][1] == (0.4, 0.7)
         other.ask("undo", "changed")
         assert one.hear("changed").history.undo_steps == 0
         assert one.ask("redo", "changed").history.undo == "draw open of f-ah"

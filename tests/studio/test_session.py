@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
 
 from lipwright.engines.bigram import BigramEngine
@@ -138,8 +138,9 @@ def play(session: Session, todo: list[tuple[str, object, str]]) -> Iterator[None
 
 
 @settings(
-    max_examples=40,
+    max_examples=150,
     deadline=None,
+    phases=[Phase.explicit, Phase.reuse, Phase.generate],
     suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow],
 )
 @given(todo=steps, own=st.booleans())

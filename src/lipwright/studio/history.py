@@ -80,14 +80,14 @@ class Steps(Generic[T]):
         """Go back; return by how many steps."""
         gone = min(max(steps, 0), self.undo_steps)
         self._now -= gone
-        self._merge = ""
+        self._merge = "" if gone else self._merge
         return gone
 
     def redo(self, steps: int = 1) -> int:
         """Go forward again; return by how many steps."""
         gone = min(max(steps, 0), self.redo_steps)
         self._now += gone
-        self._merge = ""
+        self._merge = "" if gone else self._merge
         return gone
 
     def names_of_done(self) -> list[str]:
