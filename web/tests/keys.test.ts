@@ -1,6 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import * as keys from "../src/studio/curves/keys.ts";
+import { frameOf, stretch, type Frame } from "../src/studio/curves/handles.ts";
 import type { Curves, Domain, Key } from "../src/studio/curves/keys.ts";
 
 const PAIR: Domain = { first: 0, last: 1, rests: true };
@@ -169,4 +170,17 @@ test("whatever is done to a curve, in any order, it can be drawn in the set", ()
         );
     }
   }
+});
+
+test("the edge of a frame goes where it is held, and what it holds goes along", () => {
+  const picked = chosen({ FV: [1, 2], open: [1] });
+  const frame = frameOf(both(), picked) as Frame;
+  assert.deepEqual(frame, { times: [0.15, 0.71], values: [0.46, 1] });
+  const wide = stretch(both(), picked, PAIR, frame, "right", 0.99);
+  assert.deepEqual(wide["open"][1], [0.99, 0.46]);
+  assert.deepEqual(wide["FV"][1], [0.15, 1]);
+  const weak = stretch(both(), picked, PAIR, frame, "top", 0.5);
+  assert.deepEqual([weak["FV"][1][1], weak["open"][1][1]], [0.5, 0.23]);
+  for (const list of [...Object.values(wide), ...Object.values(weak)]) assertDrawable(list);
+  assert.equal(frameOf(both(), chosen({ FV: [1] })), null);
 });

@@ -6,6 +6,7 @@ export interface Ink {
   muted: string;
   line: string;
   page: string;
+  panel: string;
   raised: string;
   wave: string;
   accent: string;
@@ -23,6 +24,7 @@ export function readInk(canvas: HTMLCanvasElement): Ink {
     muted: ink("muted"),
     line: ink("line"),
     page: ink("page"),
+    panel: ink("panel"),
     raised: ink("raised"),
     wave: ink("wave"),
     accent: ink("accent"),

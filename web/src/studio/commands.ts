@@ -100,7 +100,12 @@ export function keysOf(studio: Studio): Key[] {
       does: "control before, next control",
       act: (key) => studio.controls.step(key === "u" ? -1 : 1),
     },
-    { keys: ["g"], shown: ["G"], does: "curves apart, together", act: () => studio.toggleLanes() },
+    {
+      keys: ["g"],
+      shown: ["G"],
+      does: "curves apart, together",
+      act: () => studio.stages.toggleLanes(),
+    },
     { keys: ["y"], shown: ["Y"], does: "why, here", act: () => studio.whyHere() },
     {
       keys: ["e"],

@@ -219,7 +219,8 @@ export class Session {
     if (first) this.target = hello.target;
     const shown = this.character.a;
     this.character.a = hello.character;
-    if (!hello.lines.some(({ id }) => id === this.#watched.line)) this.watch({ line: "" });
+    // What was shown may be another by now: a draft was taken, or a file was read again.
+    if (!first) this.watch({});
     this.#announce("hello", "cells", "rules", "line list", "files", "history");
     if (shown?.model !== hello.character.model) this.#announce("character");
   }

@@ -176,10 +176,7 @@ export function paste(keys: Key[], pasted: Key[], domain: Domain): Key[] {
   if (!pasted.length) return keys;
   const [from, to] = [pasted[0][0] - GAP, pasted[pasted.length - 1][0] + GAP];
   const around = keys.filter(([time]) => time <= from || time >= to);
-  return settle(
-    [...around, ...pasted].sort((a, b) => a[0] - b[0]),
-    domain,
-  );
+  return settle([...around, ...pasted], domain);
 }
 
 /** All keys of some curves. */
@@ -208,18 +205,16 @@ function extentOf(curves: Curves, chosen: Chosen): { span: [number, number]; who
 
 function tidy(curves: Curves, chosen: Chosen, domain: Domain): Curves {
   const result = { ...curves };
-  for (const name of chosen.keys())
-    if (result[name])
-      result[name] = settle(
-        result[name].slice().sort((a, b) => a[0] - b[0]),
-        domain,
-      );
+  for (const name of chosen.keys()) if (result[name]) result[name] = settle(result[name], domain);
   return result;
 }
 
 /** Keys in order, none on another, resting where they must. */
-function settle(keys: Key[], domain: Domain): Key[] {
-  const result = keys.filter(([time], index) => index === 0 || time - keys[index - 1][0] >= GAP);
+export function settle(unordered: Key[], domain: Domain): Key[] {
+  const keys = unordered.slice().sort((a, b) => a[0] - b[0]);
+  const result: Key[] = [];
+  for (const key of keys)
+    if (!result.length || key[0] - result[result.length - 1][0] > GAP - 1e-9) result.push(key);
   if (!domain.rests || !result.length) return result;
   const [first, last] = [result[0], result[result.length - 1]];
   if (first[1] !== 0)

@@ -1,6 +1,7 @@
 /** How the curve editor is drawn. */
 
 import type { Ink } from "../../shared/ink.ts";
+import { AIR, handlesOf, type Frame, type Handle } from "./handles.ts";
 import type { Chosen, Curves, Key } from "./keys.ts";
 import type { Plot } from "./plot.ts";
 import { sampleKeys, type Spline } from "./sampling.ts";
@@ -33,7 +34,9 @@ export interface Drawing {
   playhead: number | null;
   /** A place that a dragged key has snapped to. */
   pulled: { time: number | null; value: number | null };
-  focused: boolean;
+  /** Around several chosen keys, and the handle of it under the pointer. */
+  frame: Frame | null;
+  handle: Handle | null;
 }
 
 type Context = CanvasRenderingContext2D;
@@ -56,6 +59,7 @@ export function paint(context: Context, drawing: Drawing): void {
   for (const name of Object.keys(drawing.curves))
     if (name !== drawing.active) dots(context, drawing, name, false);
   if (drawing.curves[drawing.active]) dots(context, drawing, drawing.active, true);
+  if (drawing.frame) handles(context, drawing, drawing.frame);
   context.restore();
   marks(context, drawing);
 }
@@ -237,6 +241,25 @@ function dots(context: Context, drawing: Drawing, name: string, active: boolean)
     }
     context.globalAlpha = 1;
   });
+}
+
+function handles(context: Context, { plot, ink, handle }: Drawing, frame: Frame): void {
+  const [left, right] = frame.times.map((time) => plot.x(time));
+  const [low, high] = frame.values.map((value) => plot.y(value));
+  context.strokeStyle = ink.muted;
+  context.lineWidth = 1;
+  context.setLineDash([3, 3]);
+  context.strokeRect(left - AIR, high - AIR, right - left + 2 * AIR, low - high + 2 * AIR);
+  context.setLineDash([]);
+  for (const [name, { x, y }] of Object.entries(handlesOf(frame, plot))) {
+    context.beginPath();
+    context.arc(x, y, 4.5, 0, 7);
+    context.fillStyle = name === handle ? ink.accent : ink.panel;
+    context.fill();
+    context.strokeStyle = ink.text;
+    context.lineWidth = 1.25;
+    context.stroke();
+  }
 }
 
 function marks(context: Context, drawing: Drawing): void {

@@ -50,8 +50,6 @@ export class CurvePanel {
       say: hooks.say,
       drag: () => dragName("keys"),
       enter: () => this.#strip.focus(),
-      undo: () => session.undo(),
-      redo: () => session.redo(),
     });
     this.#strip = new KeyStrip(byId("strip"), this.editor);
     this.#poses = new PoseList(
@@ -89,6 +87,17 @@ export class CurvePanel {
     this.mode = "edit";
     this.place = place;
     this.show();
+  }
+
+  /** Choose the keys of a pose that lie where these do. */
+  chooseKeys(pose: string, keys: Key[]): void {
+    const own = this.editor.curves[pose] ?? [];
+    const lies = ([time, value]: Key) =>
+      keys.some(([t, v]) => Math.abs(t - time) < 1e-6 && Math.abs(v - value) < 1e-6);
+    this.editor.choose(
+      pose,
+      own.flatMap((key, index) => (lies(key) ? [index] : [])),
+    );
   }
 
   choosePose(name: string): void {

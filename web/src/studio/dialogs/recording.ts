@@ -22,7 +22,7 @@ export class RecordingDialog {
     const input = h("input", { type: "file", accept: SOUNDS });
     input.addEventListener("change", () => {
       const file = input.files?.[0];
-      if (file) this.open([file]);
+      if (file) void this.open([file]);
     });
     input.click();
   }
@@ -38,7 +38,7 @@ export class RecordingDialog {
     const language = h("input", { value: "en", id: "hear-language" });
     const byEar = h("input", { type: "checkbox" });
     const said = h("p", { role: "status" });
-    const pick = h("input", { type: "file", accept: ".TextGrid,.lab,.ctm,.phn,.txt,.json" });
+    const picked = h("input", { type: "file", accept: ".TextGrid,.lab,.ctm,.phn,.txt,.json" });
     const make = h("button", { type: "submit", class: "primary" }, "Make a line of it");
     const row = (words: string, field: Node) =>
       h("label", { class: "form-row" }, h("span", {}, words), field);
@@ -48,7 +48,7 @@ export class RecordingDialog {
       row("what is said", text),
       row("language", language),
       row("phones by ear", byEar),
-      row("labels", labels ? h("span", {}, labels.name) : pick),
+      row("labels", labels ? h("span", {}, labels.name) : picked),
       said,
       h("div", { class: "actions" }, make),
     );
@@ -57,7 +57,7 @@ export class RecordingDialog {
       make.disabled = true;
       said.textContent = "listening…";
       try {
-        const chosen = labels ?? pick.files?.[0] ?? null;
+        const chosen = labels ?? picked.files?.[0] ?? null;
         const key = await this.#session.connection.send("sounds", sound);
         const answer = await this.#session.ask<Made>({
           type: "hear",

@@ -64,8 +64,10 @@ class Head {
 
 export class Face {
   shown: Shown = "a";
-  tried: Record<string, number> | null = null;
-  idle = true;
+  #tried: Record<string, number> | null = null;
+  #idle = true;
+  #stale = true;
+  #drawn = Number.NaN;
   #session: Session;
   #heads: { a: Head; b: Head };
   #box = byId("stage");
@@ -113,18 +115,38 @@ export class Face {
     for (const { stage } of Object.values(this.#heads)) stage?.setView(name, gliding);
   }
 
-  /** Draw an instant; returns whether the camera still moves of itself. */
+  /** Channels that are held instead of the line's. */
+  set tried(channels: Record<string, number> | null) {
+    this.#tried = channels;
+    this.#announce();
+  }
+
+  get idle(): boolean {
+    return this.#idle;
+  }
+
+  /** Whether the eyes blink of themselves. */
+  set idle(on: boolean) {
+    this.#idle = on;
+    this.#announce();
+  }
+
+  /** Draw an instant, if it looks new; returns whether the camera still moves of itself. */
   draw(time: number): boolean {
+    if (!this.#stale && time === this.#drawn) return false;
+    this.#stale = false;
+    this.#drawn = time;
     let moving = false;
     for (const version of this.#versions()) {
       const head = this.#heads[version];
       const channels = this.#channels(version);
-      const lids = this.idle && !this.tried ? blink(time) : 0;
-      if (this.tried) head.hold(Object.keys(this.tried), Object.values(this.tried), 0);
+      const lids = this.#idle && !this.#tried ? blink(time) : 0;
+      if (this.#tried) head.hold(Object.keys(this.#tried), Object.values(this.#tried), 0);
       else if (channels) head.hold(channels.names, sample(channels, time), lids);
       else head.hold([], [], lids);
       moving = (head.stage?.draw() ?? false) || moving;
     }
+    this.#stale ||= moving;
     return moving;
   }
 
@@ -227,6 +249,7 @@ export class Face {
   }
 
   #announce(): void {
+    this.#stale = true;
     this.showView();
     for (const listener of this.#listeners) listener();
   }
