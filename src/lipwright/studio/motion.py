@@ -60,6 +60,16 @@ class Motions:
     def __init__(self, sounds: Sounds) -> None:
         self._sounds = sounds
         self._kept: OrderedDict[tuple[int, ...], tuple[tuple[Any, ...], Motion]] = OrderedDict()
+        self._speech: OrderedDict[int, tuple[LineData, Speech]] = OrderedDict()
+
+    def speech(self, line: LineData) -> Speech:
+        """Return a line as engines take it."""
+        known = self._speech.get(id(line))
+        if known is None:
+            known = self._speech[id(line)] = (line, speech_of(line, self._sounds))
+            while len(self._speech) > KEPT:
+                self._speech.popitem(last=False)
+        return known[1]
 
     def of(
         self, engine: BigramEngine, line: LineData, actor: Actor, edits: tuple[Edit, ...]
@@ -84,7 +94,7 @@ class Motions:
         self, engine: BigramEngine, line: LineData, actor: Actor, edits: tuple[Edit, ...]
     ) -> Motion:
         begun = perf_counter()
-        speech = speech_of(line, self._sounds)
+        speech = self.speech(line)
         solved = engine.solve(speech.phones, speech.words, edits)
         animation = engine.animate_solved(solved, speech, RATE)
         channels = actor.channels(animation)

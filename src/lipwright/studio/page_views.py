@@ -20,9 +20,9 @@ from lipwright.studio.motion import motion_view
 from lipwright.studio.packing import peaks
 from lipwright.studio.session import Session
 from lipwright.studio.set_views import (
+    Matrix,
     Seen,
     bigram_view,
-    cells_of,
     classes_of,
     phone_view,
     poses_of,
@@ -41,15 +41,20 @@ class Board:
 
     def __init__(self, session: Session) -> None:
         self._session = session
-        self._cells: dict[Pair, Cell] = {}
+        self._matrix = Matrix()
+        self._changed: tuple[Cell, ...] = ()
         self._rest: dict[str, Any] = {}
         self.news()
 
     def cells(self) -> dict[Pair, Cell]:
         """Return the matrix as it is now."""
+        self._changed += self._update()
+        return self._matrix.cells
+
+    def _update(self) -> tuple[Cell, ...]:
         session = self._session
-        seen = Seen(session.need, session.edits_by_pair()[0], {})
-        return cells_of(session.cast, session.opened, seen)
+        seen = Seen(session.need, session.edits_by_pair()[0])
+        return self._matrix.update(session.cast, session.opened, seen)
 
     def hello(self) -> Hello:
         """Return all that is open."""
@@ -89,14 +94,15 @@ class Board:
 
     def news(self) -> Changed:
         """Return what became different since this was last asked."""
-        cells, parts = self.cells(), self._parts()
-        changed = tuple(cell for pair, cell in cells.items() if self._cells.get(pair) != cell)
+        self._changed += self._update()
+        cells, self._changed = self._changed, ()
+        parts = self._parts()
         different = {k: v for k, v in parts.items() if self._rest.get(k) != v}
-        self._cells, self._rest = cells, parts
+        self._rest = parts
         return Changed(
             revision=self._session.revision,
             history=self._session.history,
-            cells=changed,
+            cells=cells,
             **different,
         )
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Literal
 
@@ -48,25 +48,53 @@ def state_of(of: BigramSet, pair: Pair) -> PairState:
     return "stand-in" if all(has_curve(of, label) for label in pair) else "no curve"
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True)
 class Seen:
     """What colours the matrix beside the set itself."""
 
     need: Mapping[Pair, float]
     edits: Mapping[Pair, int]
-    words: Mapping[Pair, str]
 
 
-def cells_of(now: Cast, opened: Cast, seen: Seen) -> dict[Pair, Cell]:
-    """Return the matrix."""
-    overridden = {pair for layer in now.of.layers for pair in layer.pairs}
-    labels = load_phone_set(now.of.phone_set).labels
-    return {
-        (a, b): _cell((a, b), now, opened, seen, overridden)
-        for a in labels
-        for b in labels
-        if not a == b == SILENCE
-    }
+class Matrix:
+    """The matrix, kept up to date: only cells whose pair became different are made anew."""
+
+    def __init__(self) -> None:
+        self.cells: dict[Pair, Cell] = {}
+        self._now: Cast | None = None
+        self._opened: Cast | None = None
+        self._seen: Seen | None = None
+        self._overridden: set[Pair] = set()
+
+    def update(self, now: Cast, opened: Cast, seen: Seen) -> tuple[Cell, ...]:
+        """Bring the matrix up to date; return the cells that are different."""
+        overridden = {pair for layer in now.of.layers for pair in layer.pairs}
+        changed = []
+        for pair in self._suspects(now, opened, seen, overridden):
+            cell = _cell(pair, now, opened, seen, overridden)
+            if self.cells.get(pair) != cell:
+                self.cells[pair] = cell
+                changed.append(cell)
+        self._now, self._opened, self._seen = now, opened, seen
+        self._overridden = overridden
+        return tuple(changed)
+
+    def _suspects(
+        self, now: Cast, opened: Cast, seen: Seen, overridden: set[Pair]
+    ) -> Iterable[Pair]:
+        was = self._now
+        if was is None or opened is not self._opened or seen != self._seen:
+            return self._all(now)
+        if was.of.singles is not now.of.singles:
+            return self._all(now)
+        before, after = was.of.bigrams, now.of.bigrams
+        different = {pair for pair, one in after.items() if before.get(pair) is not one}
+        different |= {pair for pair in before if pair not in after}
+        return different | (overridden ^ self._overridden)
+
+    def _all(self, now: Cast) -> Iterable[Pair]:
+        labels = load_phone_set(now.of.phone_set).labels
+        return ((a, b) for a in labels for b in labels if not a == b == SILENCE)
 
 
 def _cell(pair: Pair, now: Cast, opened: Cast, seen: Seen, overridden: set[Pair]) -> Cell:
@@ -83,7 +111,7 @@ def _cell(pair: Pair, now: Cast, opened: Cast, seen: Seen, overridden: set[Pair]
         changed,
         round(seen.need.get(pair, 0.0), 6),
         seen.edits.get(pair, 0),
-        (bigram.word if bigram else "") or seen.words.get(pair, ""),
+        bigram.word if bigram else "",
     )
 
 
