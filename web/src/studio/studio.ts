@@ -91,7 +91,8 @@ export class Studio {
       moved: () => this.#turned(),
     });
     this.transport = new Transport(session, () => this.#played(), complain);
-    this.lines = new Lines(session, this.transport, complain);
+    const said = () => this.navigator.show("in-line");
+    this.lines = new Lines(session, this.transport, said, complain);
     this.stages = new StageButtons(this.looks, this.canvas, () => this.#looksChanged());
     this.controls = new Controls(session, this.looks, () => this.#looksChanged(), dark);
     this.why = new WhyPanel(session, {

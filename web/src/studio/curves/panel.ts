@@ -25,6 +25,9 @@ export interface PanelHooks {
   dark(): boolean;
 }
 
+const HOW =
+  "Comma and full stop choose keys, arrows move them, Enter types numbers, question mark lists all keys.";
+
 /** Seconds that a pair takes where the line does not have it. */
 const USUAL = 0.22;
 
@@ -170,6 +173,7 @@ export class CurvePanel {
     document.body.dataset["mode"] = this.mode;
     const [badge, note] = this.#badge();
     write(byId("pair-name"), this.#title());
+    this.editor.canvas.ariaLabel = `Curves of ${this.#title()}. ${HOW}`;
     const label = byId("pair-state");
     write(label, badge);
     label.title = note;

@@ -26,7 +26,10 @@ export class KeyStrip {
   update(): void {
     const { active, curves, chosen, domain } = this.#editor;
     const keys = curves[active] ?? [];
-    write(this.#title, active ? `${active}: ${keys.length} keys` : "");
+    const title = keys.length
+      ? `${active}: ${keys.length} keys`
+      : `${active} has no curve: tick it`;
+    write(this.#title, active ? title : "");
     if (this.#columns.length !== keys.length) this.#make(keys.length);
     keys.forEach(([time, value], index) => {
       const { cell, time: first, value: second } = this.#columns[index];

@@ -16,6 +16,7 @@ export class Lines {
   #session: Session;
   #transport: Transport;
   #recording: RecordingDialog;
+  #said: () => void;
   #complain: (error: Error) => void;
   /** What is to be looped as soon as its line is here. */
   #waiting: { line: string; start: number; end: number } | null = null;
@@ -23,11 +24,21 @@ export class Lines {
   #example: string | null = null;
   #turn = 0;
 
-  constructor(session: Session, transport: Transport, complain: (error: Error) => void) {
+  /** `said` is called when a line has been made here. */
+  constructor(
+    session: Session,
+    transport: Transport,
+    said: () => void,
+    complain: (error: Error) => void,
+  ) {
     this.#session = session;
+    this.#said = said;
     this.#transport = transport;
     this.#complain = complain;
-    this.#recording = new RecordingDialog(session, (line) => this.open(line));
+    this.#recording = new RecordingDialog(session, (line) => {
+      this.open(line);
+      said();
+    });
     session.on("hello", () => this.#voices());
     session.on(["hello", "line list"], () => this.#list());
     session.on("line", () => this.#show());
@@ -50,6 +61,7 @@ export class Lines {
       const ask = { type: "say" as const, text: text.trim(), ...(voice ? { voice } : {}) };
       const { line } = await this.#session.ask<Made>(ask);
       this.open(line);
+      this.#said();
     } catch (error) {
       this.#complain(error as Error);
     }
@@ -117,7 +129,13 @@ export class Lines {
 
   #show(): void {
     const { line } = this.#session;
-    byId<HTMLSelectElement>("line").value = line?.line ?? "";
+    const select = byId<HTMLSelectElement>("line");
+    select.querySelector("[data-example]")?.remove();
+    if (line && line.line === this.#example)
+      select.append(
+        h("option", { value: line.line, "data-example": "" }, `example: ${line.title}`),
+      );
+    select.value = line?.line ?? "";
     const text = byId<HTMLInputElement>("text");
     if (line?.text && document.activeElement !== text) text.value = line.text;
   }
