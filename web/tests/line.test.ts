@@ -2,6 +2,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { layOut } from "../src/shared/rows.ts";
 import { Scale } from "../src/shared/scale.ts";
+import { shareAt, timeOf } from "../src/studio/curves/laid.ts";
 import { edgeAt, lanesOf, movedEdge, roomOf } from "../src/studio/line/rows.ts";
 
 const phones = [
@@ -65,4 +66,20 @@ test("curves together share one row", () => {
   const rows = layOut(260, { overview: false, wave: true });
   const lanes = lanesOf(rows, [0, 1], false, 0);
   assert.deepEqual(lanes[0].row, lanes[1].row);
+});
+
+test("what is edited and what is seen in the line are each other's inverse", () => {
+  const places = [
+    { first: 0.1, boundary: 0.2, last: 0.5, mark: 0.4 },
+    { first: 1.1, boundary: 1.3, last: 1.4, mark: 0.4 },
+  ];
+  assert.equal(shareAt(places, 0.2), 0.4);
+  assert.equal(shareAt(places, 0.8), null);
+  for (const share of [0, 0.25, 0.4, 0.9])
+    for (const near of [0, 1.2]) {
+      const time = timeOf(places, share, near) as number;
+      assert.ok(Math.abs((shareAt(places, time) as number) - share) < 1e-9);
+      assert.equal(time > 1, near > 1);
+    }
+  assert.equal(timeOf([], 0.5, 0), null);
 });

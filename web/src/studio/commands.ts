@@ -111,7 +111,7 @@ export function keysOf(studio: Studio): Key[] {
       keys: ["e"],
       shown: ["E"],
       does: "edit the pair that sounds here",
-      act: () => studio.editHere(),
+      act: () => studio.going.fromHere(),
     },
     { keys: ["p"], shown: ["P"], does: "to the table of pairs", act: () => studio.toMatrix() },
     {

@@ -24,10 +24,10 @@ import { Settings } from "./panels/settings.ts";
 import { Sliders } from "./panels/sliders.ts";
 import { Tabs } from "./panels/tabs.ts";
 import { WhyPanel } from "./panels/why.ts";
+import { Going } from "./parts/going.ts";
 import { Header } from "./parts/header.ts";
 import { Lines } from "./parts/lines.ts";
 import { StageButtons } from "./parts/stage-buttons.ts";
-import type { EditView } from "./protocol.ts";
 
 /** Milliseconds that a complaint is read. */
 const READ = 6000;
@@ -59,6 +59,7 @@ export class Studio {
   readonly saving: SaveDialog;
   readonly navigator: Tabs;
   readonly inspector: Tabs;
+  readonly going = new Going(this);
   #boundaries: Stream;
   #edge = { phone: 0, merge: "" };
   /** What is done as soon as the pair that was asked for is here. */
@@ -78,7 +79,11 @@ export class Studio {
     this.panel = new CurvePanel(session, {
       say: (words) => this.say(words),
       hear: (pair) => void this.lines.hear(pair),
-      touched,
+      touched: () => {
+        touched();
+        this.going.besideKey();
+      },
+      see: () => this.going.toKey(),
       dark,
     });
     this.face = new Face(session, complain);
@@ -87,7 +92,7 @@ export class Studio {
       dragged: (phone, time) => this.#dragEdge(phone, time),
       why: (control, time) => void this.askWhy(control, time),
       phone: (index) => this.#choosePhone(index),
-      open: (phone) => this.#openPhonePair(phone),
+      open: (phone) => this.going.fromPhone(phone),
       moved: () => this.#turned(),
     });
     this.transport = new Transport(session, () => this.#played(), complain);
@@ -104,7 +109,7 @@ export class Studio {
     });
     this.matrix = new Matrix(session, open, (phone) => this.panel.openPhone(phone));
     this.inLine = new InLine(session, {
-      open: (pair, time) => this.#openAt(pair, time),
+      open: (pair, time) => this.going.toPair(pair, time),
       loop: (start, end) => this.lines.loop(start, end),
       seen: () => this.canvas.scale,
     });
@@ -116,7 +121,7 @@ export class Studio {
         this.panel.choosePose(pose);
         this.panel.editor.canvas.focus();
       },
-      go: (view) => this.#goTo(view),
+      go: (view) => this.going.toEdit(view),
       touched,
     });
     new Settings(session, touched);
@@ -196,17 +201,6 @@ export class Studio {
     void this.askWhy(this.looks.control, this.transport.player?.time() ?? 0);
   }
 
-  /** Edit the pair that sounds at the playhead. */
-  editHere(): void {
-    const time = this.transport.player?.time() ?? 0;
-    const pair = this.session.line?.pairs.find(
-      ({ first, boundary }) => time >= first && time < boundary,
-    );
-    if (!pair) return;
-    this.openPair(pair.pair);
-    this.panel.editor.canvas.focus();
-  }
-
   toMatrix(): void {
     this.navigator.show("pairs");
     byId("matrix").querySelector<HTMLElement>('[tabindex="0"]')?.focus();
@@ -264,13 +258,14 @@ export class Studio {
     session.on("peaks", () => this.#showPeaks());
     session.on("pair", () => this.#pairCame());
     session.on("motion", () => {
-      const { a } = session.motion;
-      this.canvas.showMotion(a?.controls ?? null, a?.view ?? null);
+      const { a, b } = session.motion;
+      this.canvas.showMotion(a?.controls ?? null, a?.view ?? null, b?.controls ?? null);
       this.measure.arrive();
       this.ask();
     });
     this.canvas.onChange(() => this.ask());
     this.face.onChange(() => this.ask());
+    this.face.onClick(() => this.going.fromFace());
     byId("edit-phone").addEventListener("click", () => this.navigator.show("edits"));
     const hear = byId("hear-word");
     put(hear, icon("sound"), h("span", { class: "hidden" }, "Hear this word, looped"));
@@ -312,20 +307,6 @@ export class Studio {
       ? { rate: sent.perSecond, block: 1, samples: new Float32Array(), ...sent }
       : null;
     this.canvas.showPeaks(this.transport.peaks ?? coarse);
-  }
-
-  #openAt(pair: Pair, time: number): void {
-    this.openPair(pair);
-    this.transport.player?.seek(time, true);
-    this.canvas.reveal(time, time);
-  }
-
-  #goTo({ start, end, edit }: EditView): void {
-    const middle = (start + end) / 2;
-    this.transport.player?.seek(middle, true);
-    this.canvas.reveal(start, end);
-    this.controls.choose(edit.pose);
-    this.canvas.choose(spanAt(this.session.line?.phones ?? [], middle));
   }
 
   #looksChanged(): void {
@@ -383,15 +364,5 @@ export class Studio {
     this.edits.choose(index);
     button.hidden = !phone || !this.edits.place;
     if (phone) write(button, `Correct /${phone.label}/…`);
-  }
-
-  /** Open the pair that begins with a phone. */
-  #openPhonePair(phone: number): void {
-    const { line } = this.session;
-    const index = line?.classes.findIndex((each) => each.phone === phone) ?? -1;
-    const pair = line?.pairs[index] ?? line?.pairs[index - 1];
-    if (!pair) return;
-    this.openPair(pair.pair);
-    this.panel.editor.canvas.focus();
   }
 }

@@ -10,7 +10,7 @@ const LEAP = 0.1;
 /** The table: `Shift+` a leap, `Alt+` a thousandth. */
 export function keysOf(
   editor: CurveEditor,
-  hooks: { next: (way: 1 | -1) => void; enter: () => void },
+  hooks: { next: (way: 1 | -1) => void; enter: () => void; see: () => void },
 ): Key[] {
   const arrows = (by: number) => (key: string) => {
     const x = { ArrowLeft: -by, ArrowRight: by }[key] ?? 0;
@@ -101,6 +101,7 @@ export function keysOf(
       does: "narrower, wider in time",
       act: (key) => editor.scaleTimes(key === "n" ? 1 / 1.05 : 1.05),
     },
+    { keys: ["s"], shown: ["S"], does: "see the key in the line", act: () => hooks.see() },
     {
       keys: ["0"],
       shown: ["0"],

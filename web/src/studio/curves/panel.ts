@@ -7,6 +7,7 @@ import { byId, h, iconButton, put, write } from "../core/dom.ts";
 import { dragName, Stream } from "../core/drag.ts";
 import { nameOf, type Pair, type Session } from "../core/session.ts";
 import type { Change, Edit } from "../protocol.ts";
+import { shareAt, timeOf, type Laid } from "./laid.ts";
 import { keysOf, listenOn } from "./commands.ts";
 import { CurveEditor, type Subject } from "./editor.ts";
 import { editOf, editSubject, type PhonePlace } from "./line-edit.ts";
@@ -20,6 +21,8 @@ export type Mode = "pair" | "phone" | "edit";
 export interface PanelHooks {
   say(words: string): void;
   hear(pair: Pair): void;
+  /** Go to where the chosen key acts in the line. */
+  see(): void;
   /** Something was changed here: what is measured from it begins now. */
   touched(): void;
   dark(): boolean;
@@ -70,6 +73,7 @@ export class CurvePanel {
     return keysOf(this.editor, {
       next: (way) => this.#nextPose(way),
       enter: () => this.#strip.focus(),
+      see: () => this.#hooks.see(),
     });
   }
 
@@ -118,7 +122,7 @@ export class CurvePanel {
 
   /** The pair that is shown lies at this share of itself under the playhead. */
   setPlayhead(time: number): void {
-    const share = this.#share(time);
+    const share = shareAt(this.#places(), time);
     if (share === this.editor.playhead) return;
     this.editor.playhead = share;
     this.editor.refresh();
@@ -145,24 +149,38 @@ export class CurvePanel {
     return here ? Math.max(here.last - here.first, 0.02) : USUAL;
   }
 
-  #share(time: number): number | null {
-    const line = this.#session.line;
-    if (!line) return null;
-    if (this.mode === "edit" && this.place) {
-      const { start, end } = line.classes[this.place.index] ?? { start: 0, end: 0 };
-      return time >= start && time < end ? (time - start) / (end - start) : null;
+  /** Whether what is edited sounds at an instant of the line. */
+  isOver(time: number): boolean {
+    return shareAt(this.#places(), time) !== null;
+  }
+
+  /** When the chosen key acts in the line, nearest to an instant; null where it does not. */
+  timeOfKey(near: number): number | null {
+    const { editor } = this;
+    const [index] = editor.chosen.get(editor.active) ?? [];
+    const share = editor.curves[editor.active]?.[index ?? -1]?.[0] ?? 0.5;
+    return timeOf(this.#places(), share, near);
+  }
+
+  /** Where in the line the curves that are edited are laid. */
+  #places(): Laid[] {
+    const { line, pair: view, watched } = this.#session;
+    if (!line || this.mode === "phone") return [];
+    if (this.mode === "edit") {
+      const phone = this.place && line.classes[this.place.index];
+      if (!phone) return [];
+      const { start: first, end: last } = phone;
+      return [{ first, boundary: (first + last) / 2, last, mark: 0.5 }];
     }
-    const pair = this.#session.watched.pair;
-    if (this.mode !== "pair" || !pair) return null;
-    const here = line.pairs.find(
-      (each) => same(each.pair, pair) && time >= each.first && time < each.last,
-    );
-    if (!here) return null;
-    const mark = this.#session.pair?.boundary ?? 0.5;
-    if (this.#session.setting("warp") === "linear")
-      return (time - here.first) / (here.last - here.first);
-    if (time < here.boundary) return ((time - here.first) / (here.boundary - here.first)) * mark;
-    return mark + ((time - here.boundary) / (here.last - here.boundary)) * (1 - mark);
+    const linear = this.#session.setting("warp") === "linear";
+    return line.pairs
+      .filter((each) => same(each.pair, watched.pair))
+      .map(({ first, boundary, last }) => ({
+        first,
+        boundary,
+        last,
+        mark: linear ? (boundary - first) / (last - first) : (view?.boundary ?? 0.5),
+      }));
   }
 
   // What is written around it

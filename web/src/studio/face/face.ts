@@ -96,6 +96,17 @@ export class Face {
     this.#listeners.push(listener);
   }
 
+  /** Call `listener` when a face is clicked, rather than turned. */
+  onClick(listener: () => void): void {
+    for (const { canvas } of Object.values(this.#heads)) {
+      let from = { x: 0, y: 0 };
+      canvas.addEventListener("pointerdown", ({ x, y }) => (from = { x, y }));
+      canvas.addEventListener("click", ({ x, y }) => {
+        if (Math.hypot(x - from.x, y - from.y) < 4) listener();
+      });
+    }
+  }
+
   get stage(): Stage | null {
     return this.#heads[this.shown === "b" ? "b" : "a"].stage;
   }

@@ -52,6 +52,7 @@ export class LineCanvas {
   rows: Row[] = [];
   lanes: Lane[] = [];
   #motion: MotionView | null = null;
+  #other: Curves | null = null;
   #peaks: Peaks | null = null;
   #pointer: LinePointer;
   #still = document.createElement("canvas");
@@ -102,7 +103,12 @@ export class LineCanvas {
     this.refresh();
   }
 
-  showMotion(controls: Curves | null, motion: MotionView | null): void {
+  showMotion(
+    controls: Curves | null,
+    motion: MotionView | null,
+    other: Curves | null = null,
+  ): void {
+    this.#other = other;
     this.controls = controls ?? NONE;
     this.#motion = motion;
     this.refresh();
@@ -251,6 +257,7 @@ export class LineCanvas {
       looks,
       lanes,
       motion: this.#motion,
+      other: this.#other,
       edits: this.line?.edits ?? [],
       chosen: this.chosen,
       edge: this.#pointer.edge,

@@ -1,6 +1,6 @@
 /** How the line is drawn: rows, lanes, stages, and what is chosen or corrected in it. */
 
-import { sample } from "../../shared/curves.ts";
+import { sample, type Curves } from "../../shared/curves.ts";
 import { paint, type Scene } from "../../shared/paint.ts";
 import type { Row } from "../../shared/rows.ts";
 import type { EditView, MotionView } from "../protocol.ts";
@@ -13,6 +13,8 @@ export interface View {
   looks: Looks;
   lanes: Lane[];
   motion: MotionView | null;
+  /** The controls of the version that is held beside this one. */
+  other: Curves | null;
   edits: EditView[];
   /** The phone that is chosen, and the edge under the pointer. */
   chosen: number | null;
@@ -26,9 +28,10 @@ type Context = CanvasRenderingContext2D;
 /** All that stands still while the line plays. */
 export function paintStill(context: Context, view: View): void {
   for (const row of view.scene.rows) {
-    if (row.name === "curves" && (view.looks.apart || view.looks.on.size))
-      paintCurves(context, view, row);
+    const plain = row.name !== "curves" || !(view.looks.apart || view.looks.on.size);
+    if (!plain) paintCurves(context, view, row);
     else paint.row(context, view.scene, row);
+    if (plain && row.name === "curves") paintOther(context, view);
   }
   paintEdits(context, view);
 }
@@ -47,10 +50,22 @@ function paintCurves(context: Context, view: View, row: Row): void {
     if (looks.apart) paintLane(context, view, lane);
     if (lane !== own || !looks.on.size) paint.curve(context, scene, lane.row, lane.control);
   }
-  if (!own || !motion || !looks.on.size) return;
+  if (!own || !motion || !looks.on.size) return paintOther(context, view);
   const { control, on, figures } = looks;
   paintStages(context, { motion, control, on, dark: ink.dark, figures, scale, row: own.row });
-  paintResult(context, scene.performance.controls, own, scale, ink.text);
+  const result = { colour: ink.text, dash: [], wide: 2 };
+  paintResult(context, scene.performance.controls, own, scale, result);
+  paintOther(context, view);
+}
+
+/** The chosen control of the version that this one is compared with. */
+function paintOther(context: Context, { scene, looks, lanes, other }: View): void {
+  const { names } = scene.performance.controls;
+  const own = lanes.find(({ control }) => names[control] === looks.control);
+  const control = other?.names.indexOf(looks.control) ?? -1;
+  if (!own || !other || control < 0) return;
+  const style = { colour: scene.ink.text, dash: [2, 4], wide: 1.5 };
+  paintResult(context, other, { control, row: own.row }, scene.scale, style);
 }
 
 function paintLane(context: Context, { scene, looks }: View, { control, row }: Lane): void {

@@ -95,13 +95,13 @@ function keys(
   }
 }
 
-/** The result that is exported, in the colour of text: none of the stages has it. */
+/** One control of a result, as it is exported. */
 export function paintResult(
   context: CanvasRenderingContext2D,
   controls: Curves,
   { control, row }: Lane,
   scale: Scale,
-  colour: string,
+  { colour, dash, wide }: StageStroke,
 ): void {
   const width = controls.names.length;
   const last = frameCount(controls) - 1;
@@ -116,7 +116,9 @@ export function paintResult(
     context[rests ? "moveTo" : "lineTo"](x, paint.level(row, value));
   }
   context.strokeStyle = colour;
-  context.lineWidth = 2;
+  context.lineWidth = wide;
   context.lineJoin = "round";
+  context.setLineDash(dash);
   context.stroke();
+  context.setLineDash([]);
 }
