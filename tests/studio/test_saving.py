@@ -232,3 +232,60 @@ def test_a_read_only_file_is_refused_with_a_reason(desk: Path) -> None:
     session.edit(F_AH)
     (desk / "mine.json").chmod(0o444)
     assert "is read-only" in shown(session, SET).refused
+
+
+CHARACTER = """{
+  "format": "lipwright/character",
+  "version": 1,
+  "name": "troll",
+  "base": "head"%s
+}
+"""
+
+
+@pytest.mark.parametrize(
+    ("said", "becomes"),
+    [
+        ("", '"overrides": "troll-overrides.json"'),
+        (', "overrides": []', '"overrides": ["troll-overrides.json"]'),
+        (
+            ', "overrides": {"gains": {"wide": 0.5}}',
+            '"overrides": [{"gains": {"wide": 0.5}}, "troll-overrides.json"]',
+        ),
+        (
+            ',\n  "settings": {"poses": {"open": {"limit": 9}}}',
+            '"name": "troll",\n  "overrides": "troll-overrides.json",\n  "base"',
+        ),
+    ],
+)
+def test_a_characters_overrides_are_named_in_its_file(desk: Path, said: str, becomes: str) -> None:
+    troll = desk / "troll.json"
+    troll.write_text(CHARACTER % said, "utf-8")
+    session = opened("troll.json", "low.json")
+    session.edit(DrawCurve("overrides", ("l", "ow"), "W", ((0, 0), (0.9, 0.05), (1, 0))))
+    diff = shown(session, OVER).diff
+    assert "+++ troll-overrides.json" in diff
+    assert "+++ troll.json" in diff
+    now = session.motion("1").animation
+    save(session, OVER)
+    assert becomes in troll.read_text("utf-8")
+    performance = animate(from_labels("low.json"), character=troll)
+    assert performance.animation.values.tobytes() == now.values.tobytes()
+    again = opened("troll.json", "low.json")
+    assert again.state.overrides.bigrams.keys() == {("l", "ow")}
+    assert again.motion("1").animation.values.tobytes() == now.values.tobytes()
+    again.edit(DrawCurve("overrides", ("l", "ow"), "W", ((0, 0), (0.9, 0.15), (1, 0))))
+    assert len(changed_lines(shown(again, OVER).diff)) == 2
+
+
+def test_a_character_file_that_changed_meanwhile_is_not_written_over(desk: Path) -> None:
+    troll = desk / "troll.json"
+    troll.write_text(CHARACTER % "", "utf-8")
+    session = opened("troll.json")
+    session.edit(DrawCurve("overrides", ("l", "ow"), "W", TRIANGLE))
+    preview = shown(session, OVER)
+    troll.write_text(CHARACTER % ', "about": "x"', "utf-8")
+    assert session.save(OVER, "", preview.digest) is None
+    assert not (desk / "troll-overrides.json").exists()
+    save(session, OVER)
+    assert '"about": "x"' in troll.read_text("utf-8")

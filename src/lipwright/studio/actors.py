@@ -14,6 +14,7 @@ from lipwright.casting import character_file
 from lipwright.character import BUILT_IN, Character, keep_character
 from lipwright.engines.bigram.overrides import Overrides, character_overrides
 from lipwright.errors import CharacterError
+from lipwright.studio.cast import Parts
 from lipwright.studio.messages import CharacterView, Joint
 
 
@@ -59,15 +60,25 @@ class Actor:
         moved = self.channels(Animation(tuple(weights), values.reshape(1, -1), 1.0))
         return dict(zip(moved.controls, moved.values[0].tolist(), strict=True))
 
-    def parts(self, phone_set: str) -> tuple[Overrides, ...]:
-        """Return what the character changes of a set, beneath all else first."""
+    def parts(self, phone_set: str, opened: str = "") -> Parts:
+        """Return what the character changes of a set, beneath all else first.
+
+        Parameters
+        ----------
+        phone_set : str
+        opened : str
+            An override file of the character's own that is open: it is left out.
+        """
         file = character_file(self.spec)
         found: list[Overrides] = []
         for layer in file.layers if file else ():
             found += character_overrides(
                 phone_set, layer.name, layer.path, layer.overrides, layer.settings
             )
-        return tuple(found)
+        places = [n for n, part in enumerate(found) if opened and part.where == opened]
+        if not places:
+            return Parts(tuple(found))
+        return Parts(tuple(found[: places[-1]]), tuple(found[places[-1] + 1 :]))
 
     def view(self, version: str, poses: tuple[str, ...]) -> CharacterView:
         """Return what the page needs to show it."""

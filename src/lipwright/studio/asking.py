@@ -208,7 +208,8 @@ class Studio:
             return spoken(of, request, lines, told)
 
         def done(found: Any) -> Reply:
-            session.need = {need.pair: need.share for need in found.needs()}
+            counted = {need.pair: need.share for need in found.needs()}
+            session.counted = counted if request.every or request.text else None
             edits = session.edits_by_pair()
             return Reply((coverage_view(found, request, edits, self.board.cells()),), changed=True)
 

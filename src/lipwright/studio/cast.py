@@ -19,31 +19,39 @@ from lipwright.studio.state import State
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class Parts:
+    """What a character changes of the set: before the overrides that are open, and after them.
+
+    A character's settings go last, over an override file of its own that is open.
+    """
+
+    before: tuple[Overrides, ...] = ()
+    after: tuple[Overrides, ...] = ()
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class Cast:
     """A state made ready to animate.
 
     Parameters
     ----------
     state : State
-    parts : tuple of Overrides
-        What the character changes of the set.
+    parts : Parts
     under : BigramSet
-        The set with these.
+        The set with what lies beneath the overrides.
     of : BigramSet
-        And with the overrides that are open.
+        And with them, and what lies over them.
     engine : BigramEngine
     """
 
     state: State
-    parts: tuple[Overrides, ...]
+    parts: Parts
     under: BigramSet
     of: BigramSet
     engine: BigramEngine
 
 
-def cast(
-    state: State, parts: tuple[Overrides, ...], preset: str, before: Cast | None = None
-) -> Cast:
+def cast(state: State, parts: Parts, preset: str, before: Cast | None = None) -> Cast:
     """Return a state made ready; ``before`` is one that it nearly equals.
 
     Raises
@@ -54,10 +62,19 @@ def cast(
     own = state.own.of
     if before is not None and before.parts is not parts:
         before = None
-    under_before = (before.under, before.state.own.of) if before else None
-    under = _laid(own, parts, under_before, before.parts if before else ())
-    over_before = (before.of, before.under) if before else None
-    of = _laid(under, (state.overrides,), over_before, (before.state.overrides,) if before else ())
+    was = before.state if before is not None else None
+    under = _laid(
+        own,
+        parts.before,
+        (before.under, before.state.own.of) if before else None,
+        parts.before,
+    )
+    of = _laid(
+        under,
+        (state.overrides, *parts.after),
+        (before.of, before.under) if before else None,
+        (was.overrides, *parts.after) if was else (),
+    )
     if before is not None and of is before.of and before.engine.preset == preset:
         return replace(before, state=state)
     return Cast(

@@ -20,7 +20,8 @@ from lipwright.studio.changes import LineData
 from lipwright.studio.lines import tier_of
 from lipwright.studio.merging import laid_over, same
 from lipwright.studio.messages import Document, FileInfo, PreviewView
-from lipwright.studio.saving import Known, new_path, on_disk, preview, write
+from lipwright.studio.naming import named_overrides
+from lipwright.studio.saving import Beside, Known, new_path, on_disk, preview, write
 from lipwright.studio.state import OwnSet, State, overrides_content
 
 Place = tuple[Document, str]
@@ -39,6 +40,8 @@ class Desk:
         Files that were opened.
     files : dict of (document, line) to bytes
         Their contents.
+    character : str
+        The character that was opened: its file comes to name overrides that are new.
     """
 
     def __init__(
@@ -47,8 +50,10 @@ class Desk:
         first: State,
         paths: dict[Place, str],
         files: dict[Place, bytes],
+        character: str = "",
     ) -> None:
         self.folder = folder
+        self._character = character
         self._known: dict[Place, Known] = {}
         self._first = first
         documents: tuple[Place, ...] = (("set", ""), ("overrides", ""))
@@ -124,7 +129,18 @@ class Desk:
         known, path = self._as_named(place, state, name)
         now = part_of(state, place)
         reader = reader_of(place, path, state)
-        return preview(known, path, content_of(state, place, path), now, reader)
+        beside = self._beside(place, known, path)
+        return preview(known, path, content_of(state, place, path), now, reader, beside)
+
+    def _beside(self, place: Place, known: Known, path: str) -> Beside | None:
+        """Let a character file name the overrides that are new, and made for it."""
+        is_file = Path(self._character).suffix.lower() == ".json"
+        if place[0] != "overrides" or known.content is not None or not is_file:
+            return None
+        was = on_disk(self._character)
+        if was is None:
+            return None
+        return Beside(self._character, was, named_overrides(was, self._character, path))
 
     def save(self, place: Place, state: State, name: str, seen: str) -> tuple[str, bytes] | None:
         """Write a document; None where its file is another by now.
@@ -139,7 +155,7 @@ class Desk:
         refused = self.preview(place, state, name).refused
         if refused:
             raise InputError(refused, where=path)
-        if not write(known, path, content, seen):
+        if not write(known, path, content, seen, self._beside(place, known, path)):
             return None
         self.wrote(place, state, path, content)
         return path, content

@@ -8,8 +8,10 @@ from typing import TYPE_CHECKING
 
 from lipwright.engines.bigram.coverage import Coverage, Need, coverage
 from lipwright.engines.bigram.model import BigramSet, Pair
-from lipwright.errors import TextError
+from lipwright.errors import LabelError, TextError
+from lipwright.phones import PhoneTrack
 from lipwright.speech import Speech
+from lipwright.studio.changes import LineData
 from lipwright.studio.lines import tier_of
 from lipwright.studio.messages import (
     Cell,
@@ -27,13 +29,42 @@ SHOWN = 500
 
 def lines_of_session(session: Session) -> list[Speech]:
     """Return the open lines, as far as they are counted: without their sounds."""
-    from lipwright.phones import PhoneTrack
-
     return [
         Speech(PhoneTrack(tier_of(line.phones), line.phone_set), tier_of(line.words))
         for line in session.state.lines.values()
         if line.phones
     ]
+
+
+class Needs:
+    """Which pairs the open lines need, kept up to date line by line."""
+
+    def __init__(self) -> None:
+        self._counts: dict[int, tuple[LineData, Counter[Pair]]] = {}
+        self._lines: tuple[int, ...] = ()
+        self._shares: dict[Pair, float] = {}
+
+    def shares(self, of: BigramSet, lines: Mapping[str, LineData]) -> Mapping[Pair, float]:
+        """Return each pair's share, 0..1, of the pairs of all lines."""
+        places = tuple(map(id, lines.values()))
+        if places != self._lines:
+            kept = {place: self._counts[place] for place in places if place in self._counts}
+            for line in lines.values():
+                if id(line) not in kept:
+                    kept[id(line)] = (line, _count(of, line))
+            self._counts, self._lines = kept, places
+            total: Counter[Pair] = sum((count for _, count in kept.values()), Counter())
+            whole = total.total() or 1
+            self._shares = {pair: amount / whole for pair, amount in total.items()}
+        return self._shares
+
+
+def _count(of: BigramSet, line: LineData) -> Counter[Pair]:
+    track = PhoneTrack(tier_of(line.phones), line.phone_set)
+    try:
+        return Counter({pair: int(n) for pair, n in coverage(of, [track]).needed.items()})
+    except LabelError:
+        return Counter()
 
 
 def spoken(

@@ -101,7 +101,16 @@ def sort_names(given: Given) -> Sorted:
             setattr(found, kind, name)
         else:
             getattr(found, kind).append(name)
+    if not found.overrides:
+        found.overrides = own_overrides(found.character)
     return found
+
+
+def own_overrides(character: str) -> str:
+    """Return the override file that a character file names last; nothing where it names none."""
+    file = character_file(character or None)
+    named = file.layers[-1].overrides if file else ()
+    return named[-1] if named and isinstance(named[-1], str) else ""
 
 
 def _every(names: Sequence[str]) -> Iterator[str]:
@@ -172,7 +181,9 @@ def first_state(found: Sorted, files: dict[str, bytes]) -> State:
     name = chosen_set(found)
     own = OwnSet.read(files["set"], name) if "set" in files else OwnSet.on(name)
     if "overrides" in files:
-        over = overrides_from(files["overrides"], found.overrides, own.of.phone_set)
+        owner = found.overrides == own_overrides(found.character)
+        who = Path(found.character).stem if owner else ""
+        over = overrides_from(files["overrides"], found.overrides, own.of.phone_set, who)
     else:
         over = Overrides(f"{_who(found)} overrides", where="the studio")
     return State(own, over)

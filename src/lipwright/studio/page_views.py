@@ -53,7 +53,7 @@ class Board:
 
     def _update(self) -> tuple[Cell, ...]:
         session = self._session
-        seen = Seen(session.need, session.edits_by_pair()[0])
+        seen = Seen(session.need(), session.edits_by_pair()[0])
         return self._matrix.update(session.cast, session.opened, seen)
 
     def hello(self) -> Hello:

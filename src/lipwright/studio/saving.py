@@ -14,7 +14,7 @@ from pathlib import Path, PurePosixPath, PureWindowsPath
 from typing import Any
 
 from lipwright.errors import InputError, LipwrightError, OutputError
-from lipwright.files import check_target, write_atomically
+from lipwright.files import check_target, write_all
 from lipwright.studio.merging import changed_names
 from lipwright.studio.messages import Document, PreviewView
 
@@ -61,9 +61,10 @@ def on_disk(path: str | Path) -> bytes | None:
         raise InputError(f"cannot be read ({error.strerror})", where=str(path)) from None
 
 
-def digest(content: bytes | None) -> str:
-    """Return what tells a file's state from others."""
-    return "none" if content is None else sha256(content).hexdigest()
+def digest(content: bytes | None, beside: Beside | None = None) -> str:
+    """Return what tells a file's state, and that of the one beside it, from others."""
+    told = "none" if content is None else sha256(content).hexdigest()
+    return told if beside is None else f"{told} {sha256(beside.was).hexdigest()}"
 
 
 def new_path(folder: Path, name: str, document: Document) -> Path:
@@ -87,8 +88,22 @@ def new_path(folder: Path, name: str, document: Document) -> Path:
     return folder / name
 
 
+@dataclass(frozen=True, slots=True)
+class Beside:
+    """Another file that saving changes along: a character file that comes to name overrides."""
+
+    path: str
+    was: bytes
+    becomes: bytes
+
+
 def preview(
-    known: Known, path: str, ours: bytes, now: Any, read: Callable[[bytes], Any]
+    known: Known,
+    path: str,
+    ours: bytes,
+    now: Any,
+    read: Callable[[bytes], Any],
+    beside: Beside | None = None,
 ) -> PreviewView:
     """Return what writing a document would change.
 
@@ -102,6 +117,7 @@ def preview(
         The document's state.
     read : function
         Makes a state of a file's content.
+    beside : Beside, optional
     """
     disk = on_disk(path)
     refused, theirs = _refusal(path), ""
@@ -121,12 +137,18 @@ def preview(
         line=known.line,
         path=path,
         is_new=disk is None,
-        diff=diff_of(disk or b"", ours, path, "on disk", "to be written"),
+        diff=diff_of(disk or b"", ours, path, "on disk", "to be written") + _diff_beside(beside),
         theirs=theirs,
         both=both,
         refused=refused,
-        digest=digest(disk),
+        digest=digest(disk, beside),
     )
+
+
+def _diff_beside(beside: Beside | None) -> str:
+    if beside is None:
+        return ""
+    return diff_of(beside.was, beside.becomes, beside.path, "on disk", "to be written")
 
 
 def _both(clean: Any, now: Any, theirs: Any) -> list[str]:
@@ -156,7 +178,7 @@ def diff_of(one: bytes, other: bytes, path: str, was: str, becomes: str) -> str:
     return "".join(f"{line}\n" for line in lines)
 
 
-def write(known: Known, path: str, ours: bytes, seen: str) -> bool:
+def write(known: Known, path: str, ours: bytes, seen: str, beside: Beside | None = None) -> bool:
     """Write a document, if its file is still as it was when the preview was made.
 
     Returns
@@ -172,7 +194,7 @@ def write(known: Known, path: str, ours: bytes, seen: str) -> bool:
         If it cannot be written.
     """
     disk = on_disk(path)
-    if digest(disk) != seen:
+    if digest(disk, beside) != seen:
         return False
     if disk is not None and disk not in (known.content, ours):
         raise InputError(
@@ -180,5 +202,6 @@ def write(known: Known, path: str, ours: bytes, seen: str) -> bool:
             where=path,
             cure="take in what is on disk first, then save",
         )
-    write_atomically(path, ours)
+    along = [(beside.path, beside.becomes)] if beside is not None else []
+    write_all([(path, ours), *along])
     return True

@@ -35,6 +35,7 @@ from lipwright.studio.line_views import edited_pairs
 from lipwright.studio.lines import Sounds, tier_of
 from lipwright.studio.messages import DraftInfo, History
 from lipwright.studio.motion import Motion, Motions
+from lipwright.studio.needs import Needs
 from lipwright.studio.opening import Given, Sorted, first_state, make_lines
 from lipwright.studio.state import State
 
@@ -76,7 +77,8 @@ class Session:
         self.actors = {name: self.actor}
         self.kept: dict[str, BigramEngine] = {}
         self.examples: dict[str, LineData] = {}
-        self.need: Mapping[Pair, float] = {}
+        self.needs = Needs()
+        self.counted: Mapping[Pair, float] | None = None
         self.revision = 0
         self._left: list[Record] = draft.read()
         self.left: Opened | None = None
@@ -110,10 +112,10 @@ class Session:
         contents = {place[0]: content for place, content in files.items() if not place[1]}
         bare = first_state(self.found, {str(name): data for name, data in contents.items()})
         first = State(bare.own, bare.overrides, {line.id: line for line in lines})
-        self.parts = self.actor.parts(first.own.of.phone_set)
+        self.parts = self.actor.parts(first.own.of.phone_set, self.found.overrides)
         self.steps = Steps(first)
         self._lines_made = len(lines)
-        self.desk = Desk(self.folder, first, self._paths, files)
+        self.desk = Desk(self.folder, first, self._paths, files, self.found.character)
         self.opened = self.cast = cast(first, self.parts, self.given.preset)
         self.touched()
 
@@ -213,6 +215,12 @@ class Session:
         if not line.edits:
             return 0
         return len(find(line.edits, tier_of(line.phones).intervals, tier_of(line.words))[1])
+
+    def need(self) -> Mapping[Pair, float]:
+        """Return how often each pair is needed: by what was counted last, else the open lines."""
+        if self.counted is not None:
+            return self.counted
+        return self.needs.shares(self.cast.of, self.state.lines)
 
     def edits_by_pair(self) -> tuple[Counter[Pair], Counter[Pair]]:
         """Return how many edits lie in each pair, and in how many lines."""
@@ -333,7 +341,7 @@ class Session:
 
     def choose(self, actor: Actor) -> None:
         """Let another character speak; what it changes of the set comes with it."""
-        parts = actor.parts(self.state.own.of.phone_set)
+        parts = actor.parts(self.state.own.of.phone_set, self.found.overrides)
         made = cast(self.state, parts, self.given.preset)
         self.opened = cast(self.steps.first, parts, self.given.preset)
         self.actor, self.parts, self.cast = actor, parts, made
