@@ -107,24 +107,24 @@ def run(
         if browser:
             webbrowser.open(known.link)
         return
-    listening = _listen(port, known)
-    session = open_session(given)
-    seat = Seat(listening.getsockname()[1], known.token if known else secrets.token_urlsafe(24))
-    _keep_seat(folder, seat)
-    hosts = (f"{HOST}:{seat.port}", f"localhost:{seat.port}")
-    config = uvicorn.Config(
-        Server(session, seat.token, hosts).app,
-        log_level="warning",
-        ws="websockets-sansio",
-        ws_max_size=1 << 26,
-        timeout_graceful_shutdown=2,
-        lifespan="on",
-    )
-    told(f"The studio is open: {seat.link}\nEnd it with Ctrl-C.")
-    if browser:
-        webbrowser.open(seat.link)
-    with suppress(KeyboardInterrupt):
-        asyncio.run(uvicorn.Server(config).serve(sockets=[listening]))
+    with _listen(port, known) as listening:
+        session = open_session(given)
+        token = known.token if known else secrets.token_urlsafe(24)
+        seat = Seat(listening.getsockname()[1], token)
+        _keep_seat(folder, seat)
+        config = uvicorn.Config(
+            Server(session, seat.token, (f"{HOST}:{seat.port}", f"localhost:{seat.port}")).app,
+            log_level="warning",
+            ws="websockets-sansio",
+            ws_max_size=1 << 26,
+            timeout_graceful_shutdown=2,
+            lifespan="on",
+        )
+        told(f"The studio is open: {seat.link}\nEnd it with Ctrl-C.")
+        if browser:
+            webbrowser.open(seat.link)
+        with suppress(KeyboardInterrupt):
+            asyncio.run(uvicorn.Server(config).serve(sockets=[listening]))
     left = session.desk.dirty(session.state)
     kept = "what was not saved is kept, and offered when the same is opened again"
     told(f"The studio is closed{f'; {kept}' if left else ''}.")
