@@ -48,7 +48,7 @@ export function paint(context: Context, drawing: Drawing): void {
   ground(context, drawing);
   context.save();
   context.beginPath();
-  context.rect(plot.left - 7, 0, plot.right - plot.left + 14, plot.bottom + 7);
+  context.rect(plot.left - 15, 0, plot.right - plot.left + 31, plot.bottom + 15);
   context.clip();
   for (const [name, keys] of Object.entries(drawing.ghosts)) ghost(context, drawing, name, keys);
   if (drawing.before?.[drawing.active])

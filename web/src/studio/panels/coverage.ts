@@ -56,22 +56,22 @@ export class Coverage {
     const missing = view.missing.slice(0, SHOWN);
     const needed = view.needed.slice(0, SHOWN);
     const most = Math.max(1e-9, ...view.needed.map((need) => need.share));
+    const corrected = view.edited.map(({ pair, edits, lines }) =>
+      this.#row(pair, `${edits} edits in ${lines} ${lines === 1 ? "line" : "lines"}`, null, ""),
+    );
     put(
       this.#answer,
       share,
       ...view.notes.map((note) => h("p", { class: "section" }, note)),
-      missing.length ? h("p", { class: "section" }, "To draw, worst first") : null,
-      h("ul", { class: "list" }, ...missing.map((need) => this.#item(need, most, true))),
-      view.edited.length ? h("p", { class: "section" }, "Corrected most often in lines") : null,
-      h(
-        "ul",
-        { class: "list" },
-        ...view.edited.map(({ pair, edits, lines }) =>
-          this.#row(pair, `${edits} edits in ${lines} ${lines === 1 ? "line" : "lines"}`, null, ""),
-        ),
+      ...listed(
+        "To draw, worst first",
+        missing.map((need) => this.#item(need, most, true)),
       ),
-      h("p", { class: "section" }, "Needed, most first"),
-      h("ul", { class: "list" }, ...needed.map((need) => this.#item(need, most, false))),
+      ...listed("Corrected most often in lines", corrected),
+      ...listed(
+        "Needed, most first",
+        needed.map((need) => this.#item(need, most, false)),
+      ),
     );
   }
 
@@ -97,4 +97,10 @@ export class Coverage {
       ),
     );
   }
+}
+
+/** A heading and its list, or nothing. */
+function listed(title: string, items: HTMLElement[]): HTMLElement[] {
+  if (!items.length) return [];
+  return [h("p", { class: "section" }, title), h("ul", { class: "list" }, ...items)];
 }
