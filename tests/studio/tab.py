@@ -91,9 +91,9 @@ class Tab:
 
 
 @contextmanager
-def tab(browser: Browser, where: Live) -> Iterator[Tab]:
-    """Open the studio's page, ready to be used."""
-    window = browser.new_context(viewport={"width": 1280, "height": 720})
+def tab(browser: Browser, where: Live, **context: Any) -> Iterator[Tab]:
+    """Open the studio's page, ready to be used; ``context`` is Playwright's."""
+    window = browser.new_context(viewport={"width": 1280, "height": 720}, **context)
     window.set_default_timeout(PATIENCE)
     result = Tab(window.new_page())
     result.page.on("pageerror", lambda error: result.complaints.append(str(error)))
