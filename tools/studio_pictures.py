@@ -32,7 +32,6 @@ from lipwright.studio.session import Session
 PICTURES = Path(__file__).parents[1] / "docs" / "pictures"
 LINE = "Papa said the fat cat is low on the mat."
 LOW = ((0.0, 0.0), (0.3, 0.35), (0.55, 0.95), (1.0, 0.0))
-COLOURS = 256
 STAGES = ("placed", "stitched", "smoothed", "constrained", "limited")
 
 
@@ -126,9 +125,7 @@ def draw(browser: Browser, name: str) -> None:
             view(page, session)
             page.settle()
             shot = Image.open(BytesIO(page.page.screenshot())).convert("RGB")
-            shot.quantize(COLOURS, dither=Image.Dither.NONE).save(
-                PICTURES / f"{name}.png", optimize=True
-            )
+            shot.save(PICTURES / f"{name}.png", optimize=True)
             for complaint in page.complaints:
                 print(f"{name}: {complaint}", file=sys.stderr)
 
