@@ -263,6 +263,8 @@ def _with_phone(state: State, change: changes.DrawPhone) -> State:
 
 
 def _with_rule(state: State, change: changes.SetRule) -> State:
+    if isinstance(change.value, float):
+        change = msgspec.structs.replace(change, value=round(change.value, DIGITS))
     if change.target == "set":
         return _with_set_rule(state, change)
     over = state.overrides

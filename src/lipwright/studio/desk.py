@@ -21,6 +21,7 @@ from lipwright.studio.lines import tier_of
 from lipwright.studio.merging import laid_over, same
 from lipwright.studio.messages import Document, FileInfo, PreviewView
 from lipwright.studio.naming import named_overrides
+from lipwright.studio.patching import patched
 from lipwright.studio.saving import Beside, Known, new_path, on_disk, preview, write
 from lipwright.studio.state import OwnSet, State, overrides_content
 
@@ -130,7 +131,27 @@ class Desk:
         now = part_of(state, place)
         reader = reader_of(place, path, state)
         beside = self._beside(place, known, path)
-        return preview(known, path, content_of(state, place, path), now, reader, beside)
+        return preview(known, path, self._content(place, state, path), now, reader, beside)
+
+    def _content(self, place: Place, state: State, path: str) -> bytes:
+        """What a document's file would hold: in its own form, where it has another than ours."""
+        new, known = content_of(state, place, path), self.known(place, state)
+        if place[0] not in ("set", "overrides") or known.content is None or path != known.path:
+            return new
+        was = content_of(with_part(state, place, known.clean), place, path)
+        if known.content.replace(b"\r\n", b"\n") == was:
+            return new
+        text = patched(*(one.decode("utf-8-sig") for one in (known.content, was, new)))
+        return text.encode() if self._says_the_same(place, path, state, text) else new
+
+    def _says_the_same(self, place: Place, path: str, state: State, text: str) -> bool:
+        """Whether a text that was put together says what is open, and nothing else."""
+        try:
+            read = reader_of(place, path, state)(text.encode())
+        except InputError:
+            return False
+        made = content_of(with_part(state, place, read), place, path)
+        return made == content_of(state, place, path)
 
     def _beside(self, place: Place, known: Known, path: str) -> Beside | None:
         """Let a character file name the overrides that are new, and made for it."""
@@ -151,7 +172,7 @@ class Desk:
             If it cannot be written; then nothing was.
         """
         known, path = self._as_named(place, state, name)
-        content = content_of(state, place, path)
+        content = self._content(place, state, path)
         refused = self.preview(place, state, name).refused
         if refused:
             raise InputError(refused, where=path)
