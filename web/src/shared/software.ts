@@ -16,8 +16,8 @@ function look(): boolean {
   return /swiftshader|llvmpipe|software|basic render/i.test(renderer);
 }
 
-/** A context for pictures in the plane; without a graphics card it is better drawn in memory. */
+/** A context for opaque pictures in the plane; without a graphics card it is better drawn in memory. */
 export function planeContext(canvas: HTMLCanvasElement): CanvasRenderingContext2D {
-  const options = { willReadFrequently: drawsInSoftware() };
+  const options = { willReadFrequently: drawsInSoftware(), alpha: false };
   return canvas.getContext("2d", options) as CanvasRenderingContext2D;
 }

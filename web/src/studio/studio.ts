@@ -31,6 +31,8 @@ import { StageButtons } from "./parts/stage-buttons.ts";
 
 /** Milliseconds that a complaint is read. */
 const READ = 6000;
+/** Milliseconds that a running number must stand to be read. */
+const LEGIBLE = 90;
 
 export class Studio {
   readonly looks: Looks = {
@@ -65,6 +67,7 @@ export class Studio {
   /** What is done as soon as the pair that was asked for is here. */
   #then: (() => void) | null = null;
   #asked = false;
+  #written = 0;
   #hush = 0;
 
   constructor() {
@@ -162,13 +165,21 @@ export class Studio {
   draw(): boolean {
     const time = this.transport.player?.time() ?? 0;
     this.canvas.draw();
-    this.controls.at(time);
     this.inLine.mark(time);
     this.panel.setPlayhead(time);
+    this.#now(time);
+    this.#write(time);
+    return this.face.draw(time);
+  }
+
+  /** Write numbers; while they run, no more often than they can be read. */
+  #write(time: number): void {
+    const now = performance.now();
+    if (this.transport.player?.playing && now - this.#written < LEGIBLE) return;
+    this.#written = now;
+    this.controls.at(time);
     this.transport.clock();
     write(byId("caption"), this.canvas.caption());
-    this.#now(time);
-    return this.face.draw(time);
   }
 
   openPair(pair: Pair): void {

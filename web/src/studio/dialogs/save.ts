@@ -38,6 +38,7 @@ export class SaveDialog {
     const dirty = this.#session.files.some((file) => file.dirty);
     byId("unsaved").hidden = !dirty;
     byId("save").classList.toggle("dirty", dirty);
+    document.title = `${dirty ? "• " : ""}${document.title.replace(/^• /, "")}`;
   }
 
   async #choose(file: FileInfo | null): Promise<void> {

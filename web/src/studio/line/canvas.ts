@@ -16,7 +16,9 @@ import { paintChosen, paintStill, type View } from "./picture.ts";
 import { LinePointer } from "./pointer.ts";
 import { lanesOf, rowsOf, type Lane } from "./rows.ts";
 
+/** Pixels that a second needs for its phones to be read. */
 const READABLE = 130;
+const INVITATION = "Type a line above and press Enter, or drop a recording on the page";
 
 export interface Looks {
   hidden: Set<string>;
@@ -178,8 +180,9 @@ export class LineCanvas {
     const density = width / this.scale.width;
     const player = this.player;
     context.setTransform(1, 0, 0, 1, 0, 0);
-    context.clearRect(0, 0, width, height);
-    if (!player || !this.line) return;
+    context.fillStyle = this.#ink.page;
+    if (!player || !this.line) context.fillRect(0, 0, width, height);
+    if (!player || !this.line) return this.#invite(context, density);
     const time = player.time();
     if (!this.#pointer.busy && this.scale.follow(time)) this.turned();
     this.rows = rowsOf(height / density, { overview: this.scale.zoomed, wave: !!this.#peaks });
@@ -189,7 +192,8 @@ export class LineCanvas {
     if (this.#stale) {
       const still = planeContext(this.#still);
       still.setTransform(density, 0, 0, density, 0, 0);
-      still.clearRect(0, 0, width, height);
+      still.fillStyle = this.#ink.page;
+      still.fillRect(0, 0, this.scale.width, height / density);
       paintStill(still, view);
       this.#stale = false;
     }
@@ -198,6 +202,17 @@ export class LineCanvas {
     paintChosen(context, view);
     paint.moving(context, view.scene, time, this.#pointer.hover);
     this.#describe(time);
+  }
+
+  /** What an empty line says. */
+  #invite(context: CanvasRenderingContext2D, density: number): void {
+    context.setTransform(density, 0, 0, density, 0, 0);
+    context.fillStyle = this.#ink.muted;
+    context.font = `14px ${this.#ink.font}`;
+    context.textAlign = "center";
+    context.textBaseline = "middle";
+    const height = this.canvas.height / density;
+    context.fillText(INVITATION, this.scale.width / 2, height / 2);
   }
 
   /** What lies under the pointer, in words. */
