@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import http.client
-import socket
 import threading
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
@@ -17,6 +16,7 @@ from websockets.sync.client import ClientConnection, connect
 from websockets.typing import Origin
 
 from lipwright.studio.messages import Answer, Failed
+from lipwright.studio.running import listen
 from lipwright.studio.server import Server
 from lipwright.studio.session import Session
 
@@ -143,7 +143,7 @@ class Talk:
 @contextmanager
 def live(session: Session) -> Iterator[Live]:
     """Let a studio listen in a thread of its own."""
-    listening = socket.create_server(("127.0.0.1", 0))
+    listening = listen()
     where = Live(listening.getsockname()[1])
     server = uvicorn.Server(
         uvicorn.Config(

@@ -107,7 +107,7 @@ def run(
         if browser:
             webbrowser.open(known.link)
         return
-    with _listen(port, known) as listening:
+    with listen(port, known) as listening:
         session = open_session(given)
         token = known.token if known else secrets.token_urlsafe(24)
         seat = Seat(listening.getsockname()[1], token)
@@ -130,7 +130,14 @@ def run(
     told(f"The studio is closed{f'; {kept}' if left else ''}.")
 
 
-def _listen(port: int | None, known: Seat | None) -> socket.socket:
+def listen(port: int | None = None, known: Seat | None = None) -> socket.socket:
+    """Return a socket that listens: at a port, else where it did the last time, else anywhere.
+
+    Raises
+    ------
+    InputError
+        If the port is taken, or may not be used.
+    """
     wanted = [port] if port is not None else [*([known.port] if known else []), 0]
     for number in wanted:
         # asyncio sends small answers at once only where the protocol is named.
