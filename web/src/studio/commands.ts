@@ -8,8 +8,8 @@ import { SPEEDS } from "./line/transport.ts";
 
 const FIELDS = "input:not([type=checkbox]):not([type=range]), select, textarea";
 
-export function keysOf(studio: Studio): Key[] {
-  const { transport, canvas, face } = studio;
+/** What plays the line and shows the face. */
+export function playingKeys({ transport, canvas, face, versions }: Studio): Key[] {
   const player = () => transport.player;
   const names = Object.keys(VIEWS);
   const speed = (way: 1 | -1) => {
@@ -81,7 +81,14 @@ export function keysOf(studio: Studio): Key[] {
       does: "front, three-quarter, side, lips, lips from aside",
       act: (key) => face.setView(names[Number(key) - 1]),
     },
-    { keys: ["x"], shown: ["X"], does: "A or B", act: () => studio.versions.toggle() },
+    { keys: ["x"], shown: ["X"], does: "A or B", act: () => versions.toggle() },
+  ];
+}
+
+/** What leads from one part to another, and what concerns all of them. */
+export function goingKeys(studio: Studio): Key[] {
+  const { canvas } = studio;
+  return [
     {
       keys: ["+", "=", "-", "0"],
       shown: ["+", "−", "0"],

@@ -2,26 +2,23 @@
 
 import { describe } from "../shared/keyboard.ts";
 import type { StudioApi } from "./api.ts";
-import { keysOf, listen } from "./commands.ts";
+import { goingKeys, listen, playingKeys } from "./commands.ts";
 import { byId, h } from "./core/dom.ts";
 import { makeSplitters } from "./core/layout.ts";
 import type { Pair } from "./core/session.ts";
 import { Studio } from "./studio.ts";
 
-/** How many keys of the table are about playing. */
-const PLAYING = 14;
-
 makeSplitters();
 const studio = new Studio();
-const keys = keysOf(studio);
-listen(keys);
+const [playing, going] = [playingKeys(studio), goingKeys(studio)];
+listen([...playing, ...going]);
 writeHelp();
 window.studio = api();
 
 function writeHelp(): void {
   for (const [title, table] of [
-    ["Playing", keys.slice(0, PLAYING)],
-    ["Looking and going", keys.slice(PLAYING)],
+    ["Playing", playing],
+    ["Looking and going", going],
     ["In the curves", studio.panel.keys()],
   ] as const) {
     const list = h("dl");

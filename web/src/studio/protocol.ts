@@ -189,13 +189,14 @@ export interface Variant {
   value?: string;
 }
 
-/** Speak a text as a new line; answered by :class:`Made`. */
+/** Speak a text as a new line, or a ``line`` anew; answered by :class:`Made`. */
 export interface Say {
   type: "say";
   id?: number;
   text: string;
   voice?: string;
   speed?: number;
+  line?: string;
 }
 
 /** Make a line of a sound that was sent; answered by :class:`Made`. */
@@ -209,6 +210,7 @@ export interface Hear {
   labelsName?: string;
   language?: string;
   byEar?: boolean;
+  line?: string;
 }
 
 /** Speak a pair's example word; answered by :class:`ExampleView`. It is no step of undo. */

@@ -16,7 +16,11 @@ export function offerDraft(session: Session, complain: (error: Error) => void): 
     const steps = `${draft.steps} unsaved ${draft.steps === 1 ? "change" : "changes"}`;
     put(
       host,
-      h("span", {}, `An earlier studio ended with ${steps}, of ${draft.savedAt}: ${draft.summary}`),
+      h(
+        "span",
+        {},
+        `An earlier studio ended with ${steps}, on ${when(draft.savedAt)}: ${draft.summary}`,
+      ),
       h("span", { class: "spring" }),
       h(
         "button",
@@ -26,4 +30,11 @@ export function offerDraft(session: Session, complain: (error: Error) => void): 
       h("button", { type: "button", onclick: () => answer(false) }, "Throw them away"),
     );
   });
+}
+
+/** An instant, as people where the page is read write it. */
+function when(instant: string): string {
+  const date = new Date(instant);
+  if (Number.isNaN(date.getTime())) return instant;
+  return date.toLocaleString(undefined, { dateStyle: "medium", timeStyle: "short" });
 }

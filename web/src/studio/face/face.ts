@@ -36,18 +36,18 @@ class Head {
     this.canvas = canvas;
   }
 
-  async load(view: CharacterView, glb: ArrayBuffer, view0: string | null): Promise<void> {
+  async load(character: CharacterView, glb: ArrayBuffer, seen: string): Promise<void> {
     const turns: Record<string, Turn> = {};
-    for (const { channel, node, axis, degrees } of view.joints)
+    for (const { channel, node, axis, degrees } of character.joints)
       turns[channel] = { node, axis, degrees };
     const { loadModel, Stage } = await three();
-    const model = await loadModel(glb, view.backwards, turns);
+    const model = await loadModel(glb, character.backwards, turns);
     this.stage?.dispose();
     // A canvas keeps the context that it has: another model begins on a new one.
     this.model = model;
-    const used = view.known.length ? view.known : model.names;
+    const used = character.known.length ? character.known : model.names;
     this.stage = new Stage(this.canvas, model, used, drawsInSoftware());
-    this.stage.setView(view0 ?? "three-quarter");
+    this.stage.setView(seen);
     this.#driven = [];
   }
 
@@ -184,9 +184,9 @@ export class Face {
       head.address = view.model;
       try {
         const glb = await this.#model(view.model);
-        const view0 = this.stage?.view ?? null;
+        const seen = this.stage?.view ?? "three-quarter";
         if (head.address !== view.model) continue;
-        await head.load(view, glb, view0);
+        await head.load(view, glb, seen);
         head.stage?.onChange(() => this.#announce());
         head.stage?.onTurn(() => this.#follow(version));
         byId("problem").hidden = true;
