@@ -274,6 +274,25 @@ def test_a_sound_that_was_sent_becomes_a_line(desk: Path, way: str, count: int) 
     assert len(spoken) == count
 
 
+def test_a_line_that_is_made_anew_keeps_its_edits_and_its_name(desk: Path) -> None:
+    session = opened("english", "low.json")
+    studio, watcher = talk(session)
+    for edit in (Edit("low", 2, "open", level=0.9), Edit("map", 2, "open", level=0.9)):
+        ask(studio, watcher, messages.EditRequest(change=PutEdit("1", edit)))
+    made = ask(studio, watcher, messages.Say(text="So low.", line="1"))[0]
+    assert isinstance(made, Made)
+    assert made.line == "1"
+    line = session.state.lines["1"]
+    assert (line.text, len(line.edits)) == ("So low.", 2)
+    assert session.lost(line) == 1
+    low = next(row for row in line.phones if row[0] == "oʊ" and row[1] > line.words[1][1])
+    assert session.motion("1").animation.at([0.5 * (low[1] + low[2])])[0, 0] > 0.6
+    session.undo(1)
+    assert session.lost(session.state.lines["1"]) == 0
+    (failed,) = ask(studio, watcher, messages.Say(text="So low.", line="9"))
+    assert isinstance(failed, Failed)
+
+
 def test_labels_that_are_broken_are_refused_by_their_own_name(desk: Path) -> None:
     session = opened("english")
     key = session.sounds.add(sound()).key

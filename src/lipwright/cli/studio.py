@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 
 import click
@@ -85,4 +86,11 @@ def studio(
         port,
         browser=not no_browser,
         told=click.echo,
+        note=_note,
     )
+
+
+def _note(text: str) -> None:
+    """Say what is worked on, where somebody looks on."""
+    if sys.stderr.isatty():
+        click.echo(text, err=True)

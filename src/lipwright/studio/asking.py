@@ -10,6 +10,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
+import msgspec
+
 from lipwright.errors import InputError, LipwrightError
 from lipwright.studio import messages
 from lipwright.studio.changes import AddLine
@@ -160,14 +162,15 @@ class Studio:
     def _job(self, request: Request) -> Job:
         match request:
             case messages.Say():
-                return Job("speaking", lambda _: said(request), self._add_line(request.text))
+                return Job(
+                    "speaking", lambda _: said(request), self._add_line(request.text, request.line)
+                )
             case messages.Hear():
                 sounds = self.session.sounds
                 sound = sounds.load(request.sound)
                 title = request.title or request.text
-                return Job(
-                    "listening", lambda told: heard(request, sound, told), self._add_line(title)
-                )
+                done = self._add_line(title, request.line)
+                return Job("listening", lambda told: heard(request, sound, told), done)
             case messages.Example(pair=pair):
                 return self._example(pair)
             case messages.CoverageRequest():
@@ -176,12 +179,18 @@ class Studio:
                 return self._character(name)
         raise InputError(f"nothing to do for {type(request).__name__}")
 
-    def _add_line(self, title: str) -> Callable[[Any], Reply]:
+    def _add_line(self, title: str, name: str) -> Callable[[Any], Reply]:
+        """Return what makes a new line of speech, or puts it in the place of one."""
+        if name:
+            self.session.line(name)
+
         def done(speech: Any) -> Reply:
-            name = self.session.next_line()
-            line = line_of(speech, self.session.sounds, name, title)
-            self.session.edit(AddLine(line))
-            return Reply((Made(line=name),), changed=True)
+            session = self.session
+            line = line_of(speech, session.sounds, name or session.next_line(), title)
+            if name:
+                line = msgspec.structs.replace(line, edits=session.line(name).edits)
+            session.edit(AddLine(line))
+            return Reply((Made(line=line.id),), changed=True)
 
         return done
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import os
 import secrets
+import shutil
 import sys
 import time
 from collections.abc import Iterator, Mapping
@@ -145,8 +146,10 @@ class Draft:
             old.unlink(missing_ok=True)
 
     def close(self) -> None:
-        """Forget the journal: all is saved."""
+        """Forget the journal, all being saved; and the sounds, if no other speaks of them."""
         self.path.unlink(missing_ok=True)
+        if not any(self.folder.glob("aside-*.jsonl")):
+            shutil.rmtree(self.folder / "sounds", ignore_errors=True)
 
     def keep(self, kind: str, name: str, data: bytes) -> Path:
         """Keep a sound or a model under a name; return where."""

@@ -7,7 +7,7 @@ keeps what came of it.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -204,7 +204,9 @@ def read_files(found: Sorted) -> dict[str, bytes]:
     return files
 
 
-def make_lines(given: Given, found: Sorted, sounds: Sounds) -> list[LineData]:
+def make_lines(
+    given: Given, found: Sorted, sounds: Sounds, told: Callable[[str], None] = lambda _: None
+) -> list[LineData]:
     """Return the lines that are named, each with the edits that belong to it.
 
     Edits belong to the line whose file has their file's name (``hello.edits.json`` to
@@ -215,7 +217,7 @@ def make_lines(given: Given, found: Sorted, sounds: Sounds) -> list[LineData]:
     InputError
         If a line cannot be read, or nobody knows which line edits belong to.
     """
-    speeches = list(_speeches(given, found))
+    speeches = list(_speeches(given, found, told))
     lines = [
         line_of(speech, sounds, str(number), Path(name).name if name else "")
         for number, (name, speech) in enumerate(speeches, 1)
@@ -251,7 +253,9 @@ def _named(given: Given, found: Sorted) -> list[str]:
     return [*said, *found.animations, *found.sounds, *labels]
 
 
-def _speeches(given: Given, found: Sorted) -> Iterator[tuple[str, Speech]]:
+def _speeches(
+    given: Given, found: Sorted, told: Callable[[str], None]
+) -> Iterator[tuple[str, Speech]]:
     from lipwright import pipeline
 
     if given.say:
@@ -264,10 +268,13 @@ def _speeches(given: Given, found: Sorted) -> Iterator[tuple[str, Speech]]:
         if beside:
             yield name, pipeline.from_labels(beside, name)
         elif given.text:
+            told(f"putting words in time: {name}")
             yield name, pipeline.align(name, given.text, language=given.language)
         elif (text := _text_beside(name)) is not None:
+            told(f"putting words in time: {name}")
             yield name, pipeline.align(name, text, language=given.language)
         else:
+            told(f"recognising words: {name}")
             yield name, pipeline.recognise(name)
     for name in labels.values():
         yield name, pipeline.from_labels(name)

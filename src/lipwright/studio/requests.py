@@ -74,18 +74,20 @@ class Watch(Message, frozen=True, tag="watch", kw_only=True):
 
 
 class Say(Message, frozen=True, tag="say", kw_only=True):
-    """Speak a text as a new line; answered by :class:`Made`."""
+    """Speak a text as a new line, or a ``line`` anew; answered by :class:`Made`."""
 
     text: str
     voice: str = "en-us"
     speed: float = 175.0
+    line: str = ""
 
 
 class Hear(Message, frozen=True, tag="hear", kw_only=True):
     """Make a line of a sound that was sent; answered by :class:`Made`.
 
     With ``text`` its words are put in time; with ``labels`` (a file's content and name) times
-    are taken as they are; with neither words are recognised, or phones heard ``by_ear``.
+    are taken as they are; with neither words are recognised, or phones heard ``by_ear``. With
+    ``line`` it takes the place of that line, whose edits stay: those that find their phone act.
     """
 
     sound: str
@@ -95,6 +97,7 @@ class Hear(Message, frozen=True, tag="hear", kw_only=True):
     labels_name: str = ""
     language: str = "en-us"
     by_ear: bool = False
+    line: str = ""
 
 
 class Example(Message, frozen=True, tag="example", kw_only=True):

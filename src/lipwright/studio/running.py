@@ -46,7 +46,9 @@ class Seat(msgspec.Struct, frozen=True):
         return f"http://{HOST}:{self.port}/?token={self.token}"
 
 
-def open_session(given: Given, folder: Path | None = None) -> Session:
+def open_session(
+    given: Given, folder: Path | None = None, told: Callable[[str], None] = lambda _: None
+) -> Session:
     """Return what was named on the command line, opened.
 
     Raises
@@ -65,7 +67,7 @@ def open_session(given: Given, folder: Path | None = None) -> Session:
     for path in found.edits:
         edits: Place = ("edits", edits_owner(path, found, given))
         paths[edits], files[edits] = path, Path(path).read_bytes()
-    return Session(given, found, draft, folder or Path.cwd(), files, paths)
+    return Session(given, found, draft, folder or Path.cwd(), files, paths, told)
 
 
 def run(
@@ -74,6 +76,7 @@ def run(
     *,
     browser: bool = True,
     told: Callable[[str], None] = print,
+    note: Callable[[str], None] = lambda _: None,
 ) -> None:
     """Open the studio and serve it until it is interrupted.
 
@@ -86,6 +89,8 @@ def run(
         Whether to open the page.
     told : function
         Called with lines for the user.
+    note : function
+        Called with what is worked on, where that takes long.
 
     Raises
     ------
@@ -108,7 +113,7 @@ def run(
             webbrowser.open(known.link)
         return
     with listen(port, known) as listening:
-        session = open_session(given)
+        session = open_session(given, None, note)
         token = known.token if known else secrets.token_urlsafe(24)
         seat = Seat(listening.getsockname()[1], token)
         _keep_seat(folder, seat)

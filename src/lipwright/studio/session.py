@@ -7,7 +7,7 @@ again gives the same states, byte for byte.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
 
 from lipwright.character import BUILT_IN
@@ -57,6 +57,8 @@ class Session:
         Contents of the files that were opened.
     paths : dict of (document, line) to str
         And where they lie.
+    told : function
+        Called with what is worked on, where that takes long.
     """
 
     def __init__(
@@ -67,6 +69,7 @@ class Session:
         folder: Path,
         files: dict[Place, bytes],
         paths: dict[Place, str],
+        told: Callable[[str], None] = lambda _: None,
     ) -> None:
         self.given, self.found, self.draft, self.folder = given, found, draft, folder
         self._files, self._paths = files, paths
@@ -86,7 +89,7 @@ class Session:
         if self._left and isinstance(self._left[0], Opened):
             self._look_at(self._left[0])
         if self.left is None:
-            self._open(make_lines(given, found, self.sounds))
+            self._open(make_lines(given, found, self.sounds, told))
             self.begin()
 
     # --- opening ---
@@ -263,8 +266,9 @@ class Session:
         self._step(applied(self.state, change, self._beneath), change, merge)
 
     def _step(self, after: State, change: AnyChange, merge: str) -> None:
+        known = self.state.lines
         self.steps.do(after, describe(change), merge)
-        if isinstance(change, AddLine):
+        if isinstance(change, AddLine) and change.line.id not in known:
             self._lines_made += 1
             self.desk.begin_line(change.line.id, after)
 
