@@ -1,11 +1,13 @@
 /** The keys of the page, wherever the focus is but in a field. */
 
 import type { Key } from "../shared/keyboard.ts";
-import { middle, neighbour } from "../shared/spans.ts";
+import { middle, neighbour, spanAt } from "../shared/spans.ts";
 import { VIEWS } from "../shared/views.ts";
 import type { Studio } from "./studio.ts";
 import { SPEEDS } from "./line/transport.ts";
 
+/** Seconds by which a key moves the edge of a phone. */
+const STEP = 0.005;
 const FIELDS = "input:not([type=checkbox]):not([type=range]), select, textarea";
 
 /** What plays the line and shows the face. */
@@ -21,7 +23,9 @@ export function playingKeys({ transport, canvas, face, versions }: Studio): Key[
     if (!now) return;
     now.pause();
     const mark = neighbour(marks, now.time(), way);
-    if (mark !== undefined) now.seek(mark, true);
+    if (mark === undefined) return;
+    now.seek(mark, true);
+    canvas.choose(spanAt(canvas.phones, mark));
   };
   const edge = (end: "start" | "end") => {
     const now = player();
@@ -120,6 +124,24 @@ export function goingKeys(studio: Studio): Key[] {
       does: "edit the pair that sounds here",
       act: () => studio.going.fromHere(),
     },
+    {
+      keys: ["r"],
+      shown: ["R"],
+      does: "correct the phone here",
+      act: () => studio.going.toCorrect(),
+    },
+    {
+      keys: [",", "."],
+      shown: [",", "."],
+      does: "move the end of the chosen phone by 5 ms",
+      act: (key) => studio.nudgeEdge(0, key === "," ? -STEP : STEP),
+    },
+    {
+      keys: ["Shift+<", "Shift+>", "Shift+;", "Shift+:"],
+      shown: ["Shift", ",", "."],
+      does: "move its start",
+      act: (key) => studio.nudgeEdge(-1, /[<;]/.test(key) ? -STEP : STEP),
+    },
     { keys: ["p"], shown: ["P"], does: "to the table of pairs", act: () => studio.toMatrix() },
     {
       keys: ["c"],
@@ -141,7 +163,7 @@ export function goingKeys(studio: Studio): Key[] {
   ];
 }
 
-const REPEATED = /Arrow|^[-+=]$|^z$/;
+const REPEATED = /Arrow|^[-+=,.<>;:z]$/;
 
 /** Listen on the whole page; fields and dialogs keep their own keys. */
 export function listen(table: Key[]): void {

@@ -14,6 +14,7 @@ import { SaveDialog } from "./dialogs/save.ts";
 import { Face } from "./face/face.ts";
 import { Versions } from "./face/versions.ts";
 import { LineCanvas, type Looks } from "./line/canvas.ts";
+import { roomOf } from "./line/rows.ts";
 import { Transport } from "./line/transport.ts";
 import { Controls } from "./panels/controls.ts";
 import { Coverage } from "./panels/coverage.ts";
@@ -210,6 +211,16 @@ export class Studio {
 
   whyHere(): void {
     void this.askWhy(this.looks.control, this.transport.player?.time() ?? 0);
+  }
+
+  /** Move an edge of the chosen phone: its end, or with `before` −1 its start. */
+  nudgeEdge(before: 0 | -1, by: number): void {
+    const { canvas } = this;
+    if (canvas.chosen === null) return;
+    const edge = canvas.chosen + before;
+    const from = edge < 0 ? canvas.phones[0].start : canvas.phones[edge].end;
+    const [least, most] = roomOf(canvas.phones, edge);
+    this.#dragEdge(edge, Math.round(Math.min(Math.max(from + by, least), most) * 1000) / 1000);
   }
 
   toMatrix(): void {

@@ -39,6 +39,9 @@ export interface Hooks {
   enter(): void;
 }
 
+/** Milliseconds after which a key that is pressed again begins another step of undo. */
+const PAUSE = 700;
+
 export class CurveEditor {
   readonly canvas: HTMLCanvasElement;
   readonly plot = new Plot();
@@ -52,6 +55,7 @@ export class CurveEditor {
   #pointer: CurvePointer;
   #ink: Ink;
   #asked = false;
+  #last = { kind: "", at: 0, merge: "" };
 
   constructor(canvas: HTMLCanvasElement, hooks: Hooks) {
     this.canvas = canvas;
@@ -103,6 +107,7 @@ export class CurveEditor {
   }
 
   choose(name: string, indexes: number[]): void {
+    this.#last.kind = "";
     this.active = name;
     this.#chosen = new Map(indexes.length ? [[name, new Set(indexes)]] : []);
     this.refresh();
@@ -144,7 +149,8 @@ export class CurveEditor {
   /** Move what is chosen; where nothing is, choose the first key. */
   nudge(time: number, value: number): void {
     if (!this.count) return this.step(1);
-    this.take(act.move(this.#curves, this.#chosen, this.domain, time, value));
+    const moved = act.move(this.#curves, this.#chosen, this.domain, time, value);
+    this.take(moved, this.#burst("nudge"));
     this.tell();
   }
 
@@ -191,11 +197,13 @@ export class CurveEditor {
   }
 
   scaleValues(by: number): void {
-    this.take(act.scaleValues(this.#curves, this.#target(), this.domain, by));
+    const scaled = act.scaleValues(this.#curves, this.#target(), this.domain, by);
+    this.take(scaled, this.#burst("values"));
   }
 
   scaleTimes(by: number): void {
-    this.take(act.scaleTimes(this.#curves, this.#target(), this.domain, by));
+    const scaled = act.scaleTimes(this.#curves, this.#target(), this.domain, by);
+    this.take(scaled, this.#burst("times"));
   }
 
   /** Copy the chosen keys, or the active curve where none is chosen, or all curves. */
@@ -278,6 +286,14 @@ export class CurveEditor {
     return this.#subject?.domain ?? { first: 0, last: 1, rests: true };
   }
 
+  /** One name for the same thing done again and again: it is one step of undo. */
+  #burst(kind: string): string {
+    const now = performance.now();
+    const again = this.#last.kind === kind && now - this.#last.at < PAUSE;
+    this.#last = { kind, at: now, merge: again ? this.#last.merge : this.hooks.drag() };
+    return this.#last.merge;
+  }
+
   #target(): Map<string, Set<number>> {
     return this.count ? this.#chosen : act.everything(this.#curves, [this.active]);
   }
@@ -304,6 +320,7 @@ export class CurveEditor {
 
   /** Choose keys, as a pointer does: of one curve or of several. */
   pick(chosen: Map<string, Set<number>>, active = this.active): void {
+    this.#last.kind = "";
     this.#chosen = chosen;
     this.active = active;
     this.hooks.chosen();

@@ -82,6 +82,7 @@ export class SaveDialog {
       view && !view.diff ? h("p", {}, "The file says just this already.") : null,
       this.#actions(file, view),
     );
+    this.#dialog.querySelector<HTMLButtonElement>(".actions .primary:not(:disabled)")?.focus();
   }
 
   #choice(files: FileInfo[], file: FileInfo): HTMLElement {

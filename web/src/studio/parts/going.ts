@@ -32,6 +32,14 @@ export class Going {
     this.#edit(pairs.find(({ first, boundary }) => time >= first && time < boundary)?.pair);
   }
 
+  /** From the playhead to the corrections of the phone there. */
+  toCorrect(): void {
+    const { canvas, navigator } = this.#studio;
+    canvas.choose(spanAt(canvas.phones, this.#time));
+    navigator.show("edits");
+    document.querySelector<HTMLInputElement>("#edits input[type=range]")?.focus();
+  }
+
   /** From a correction to its phone. */
   toEdit({ start, end, edit }: EditView): void {
     const { canvas, controls, session } = this.#studio;
