@@ -32,6 +32,8 @@ import { StageButtons } from "./parts/stage-buttons.ts";
 
 /** Milliseconds that a complaint is read. */
 const READ = 6000;
+/** Milliseconds after which an edge that is moved again is another step of undo. */
+const PAUSE = 700;
 /** Milliseconds that a running number must stand to be read. */
 const LEGIBLE = 90;
 
@@ -64,7 +66,7 @@ export class Studio {
   readonly inspector: Tabs;
   readonly going = new Going(this);
   #boundaries: Stream;
-  #edge = { phone: 0, merge: "" };
+  #edge = { phone: 0, at: Number.NEGATIVE_INFINITY, merge: "" };
   /** What is done as soon as the pair that was asked for is here. */
   #then: (() => void) | null = null;
   #asked = false;
@@ -220,7 +222,9 @@ export class Studio {
     const edge = canvas.chosen + before;
     const from = edge < 0 ? canvas.phones[0].start : canvas.phones[edge].end;
     const [least, most] = roomOf(canvas.phones, edge);
-    this.#dragEdge(edge, Math.round(Math.min(Math.max(from + by, least), most) * 1000) / 1000);
+    const to = Math.round(Math.min(Math.max(from + by, least), most) * 1000) / 1000;
+    canvas.moveEdge(from, to);
+    this.#dragEdge(edge, to);
   }
 
   toMatrix(): void {
@@ -318,6 +322,7 @@ export class Studio {
       this.lines.loopWaiting();
       this.ask();
     };
+    if (!this.session.line) byId("edit-phone").hidden = true;
     void this.transport.show(this.session.line).then(show);
     show();
   }
@@ -373,11 +378,12 @@ export class Studio {
     const { line } = this.session;
     if (!line) return;
     this.measure.touch();
-    if (this.#edge.phone !== phone || !this.#edge.merge)
-      this.#edge = { phone, merge: dragName("edge") };
+    const now = performance.now();
+    if (this.#edge.phone !== phone || now - this.#edge.at > PAUSE)
+      this.#edge = { phone, at: now, merge: dragName("edge") };
+    this.#edge.at = now;
     const change = { type: "moveBoundary" as const, line: line.line, phone, time };
     this.#boundaries.push(change, this.#edge.merge);
-    if (!this.canvas.dragging) this.#edge.merge = "";
   }
 
   #choosePhone(index: number): void {

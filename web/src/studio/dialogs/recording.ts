@@ -37,6 +37,9 @@ export class RecordingDialog {
     });
     const language = h("input", { value: "en", id: "hear-language" });
     const byEar = h("input", { type: "checkbox" });
+    const title = "Its corrections stay: those that find their phone act, others are listed";
+    const instead = h("input", { type: "checkbox", id: "hear-instead", title });
+    const shown = this.#session.line;
     const said = h("p", { role: "status" });
     const picked = h("input", { type: "file", accept: ".TextGrid,.lab,.ctm,.phn,.txt,.json" });
     const make = h("button", { type: "submit", class: "primary" }, "Make a line of it");
@@ -49,6 +52,7 @@ export class RecordingDialog {
       row("language", language),
       row("phones by ear", byEar),
       row("labels", labels ? h("span", {}, labels.name) : picked),
+      shown ? row(`in place of “${shown.title}”`, instead) : null,
       said,
       h("div", { class: "actions" }, make),
     );
@@ -68,6 +72,7 @@ export class RecordingDialog {
           labelsName: chosen?.name ?? "",
           language: language.value.trim(),
           byEar: byEar.checked,
+          line: instead.checked && shown ? shown.line : "",
         });
         this.#dialog.close();
         this.#made(answer.line);

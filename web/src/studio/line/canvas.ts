@@ -14,7 +14,7 @@ import type { LineView, MotionView } from "../protocol.ts";
 import type { StageName } from "./palette.ts";
 import { paintChosen, paintStill, type View } from "./picture.ts";
 import { LinePointer } from "./pointer.ts";
-import { lanesOf, rowsOf, type Lane } from "./rows.ts";
+import { lanesOf, movedEdge, rowsOf, type Lane } from "./rows.ts";
 
 /** Pixels that a second needs for its phones to be read. */
 const READABLE = 130;
@@ -242,6 +242,13 @@ export class LineCanvas {
   /** The part that is shown has changed. */
   turned(): void {
     this.hooks.moved();
+    this.refresh();
+  }
+
+  /** Show an edge of two phones elsewhere, before the server has moved it: seconds. */
+  moveEdge(from: number, to: number): void {
+    this.phones = movedEdge(this.phones, from, to);
+    this.words = movedEdge(this.words, from, to);
     this.refresh();
   }
 

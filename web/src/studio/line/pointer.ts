@@ -6,7 +6,7 @@ import { paint } from "../../shared/paint.ts";
 import { hit, type Hit } from "../../shared/rows.ts";
 import { middle, type Span } from "../../shared/spans.ts";
 import type { LineCanvas } from "./canvas.ts";
-import { edgeAt, movedEdge, roomOf } from "./rows.ts";
+import { edgeAt, roomOf } from "./rows.ts";
 
 /** Pixels around a curve that mean it. */
 const REACH = 14;
@@ -121,11 +121,9 @@ export class LinePointer {
     const canvas = this.#canvas;
     const [least, most] = roomOf(canvas.phones, grip.edge);
     const time = Math.round(Math.min(Math.max(to, least), most) * 1000) / 1000;
-    canvas.phones = movedEdge(canvas.phones, grip.at, time);
-    canvas.words = movedEdge(canvas.words, grip.at, time);
+    canvas.moveEdge(grip.at, time);
     grip.at = time;
     canvas.hooks.dragged(grip.edge, time);
-    canvas.refresh();
   }
 
   #release(): void {

@@ -40,7 +40,7 @@ export class Transport {
     if (!line) return this.#make(null, null, 0);
     const known = this.#sounds.get(sound) ?? null;
     const whole = { start: Math.min(0, start), end: Math.max(end, line.duration, start + 0.05) };
-    if (before.line !== id) this.player?.setRange(null);
+    if (!same) this.player?.setRange(null);
     this.#make(whole, known, same ? (this.player?.time() ?? 0) : whole.start);
     if (sound && !known) await this.#fetch(sound, whole);
   }

@@ -99,8 +99,9 @@ export class Controls {
   /** Write the values of an instant. */
   at(time: number): void {
     const controls = this.#session.motion.a?.controls;
-    if (!controls || byId("controls").hidden) return;
-    sample(controls, time).forEach((value, index) => {
+    if (byId("controls").hidden) return;
+    const values = controls ? sample(controls, time) : new Float32Array(this.#rows.length);
+    values.forEach((value, index) => {
       const row = this.#rows[index];
       if (!row) return;
       write(row.value, value.toFixed(2));

@@ -12,7 +12,9 @@ export class Tabs {
     this.#tabs = [...list.querySelectorAll<HTMLButtonElement>('[role="tab"]')];
     for (const tab of this.#tabs)
       tab.addEventListener("click", () => this.show(tab.getAttribute("aria-controls") ?? ""));
-    list.addEventListener("keydown", (event) => this.#key(event as KeyboardEvent));
+    list
+      .querySelector('[role="tablist"]')
+      ?.addEventListener("keydown", (event) => this.#key(event as KeyboardEvent));
     this.show(first);
   }
 

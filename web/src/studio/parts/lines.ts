@@ -54,11 +54,14 @@ export class Lines {
     this.#session.watch({ line, start: 0, end: duration > LONG ? LONG / 2 : 0 });
   }
 
-  async say(text: string): Promise<void> {
+  /** Speak a text as a new line, or in place of the one that is shown. */
+  async say(text: string, instead = false): Promise<void> {
     if (!text.trim()) return;
+    const own = instead ? (this.#session.watched.line ?? "") : "";
     const voice = byId<HTMLSelectElement>("voice").value;
     try {
-      const ask = { type: "say" as const, text: text.trim(), ...(voice ? { voice } : {}) };
+      const words = { text: text.trim(), line: own, ...(voice ? { voice } : {}) };
+      const ask = { type: "say" as const, ...words };
       const { line } = await this.#session.ask<Made>(ask);
       this.open(line);
       this.#said();
@@ -121,7 +124,7 @@ export class Lines {
     put(select, ...lines.map(({ id, title }) => h("option", { value: id }, title)));
     if (!lines.length) put(select, none);
     select.disabled = !lines.length;
-    byId("remove-line").hidden = !lines.length;
+    byId("remove-line").hidden = byId("say-instead").hidden = !lines.length;
     const known = watched.line === this.#example || lines.some(({ id }) => id === watched.line);
     if (!known) this.open(lines[0]?.id ?? "");
     select.value = this.#session.watched.line ?? "";
@@ -154,8 +157,18 @@ export class Lines {
       void this.say(byId<HTMLInputElement>("text").value);
       byId("text").blur();
     });
-    byId("text").addEventListener("keydown", (event) => {
-      if (event.key === "Escape") byId("text").blur();
+    const field = byId<HTMLInputElement>("text");
+    const instead = () => {
+      void this.say(field.value, true);
+      field.blur();
+    };
+    byId("say-instead").addEventListener("click", instead);
+    field.addEventListener("keydown", (event) => {
+      if (event.key === "Escape") field.blur();
+      else if (event.key === "Enter" && event.shiftKey) {
+        event.preventDefault();
+        instead();
+      }
     });
     const select = byId<HTMLSelectElement>("line");
     select.addEventListener("change", () => {
