@@ -30,6 +30,7 @@ class Tab:
 
     def pair(self, first: str, second: str) -> None:
         """Choose a pair in the matrix."""
+        self.page.locator("#tab-pairs").click()
         self.page.locator(f".cell[data-first={first}][data-second={second}]").click()
         self.settle()
 
