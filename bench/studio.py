@@ -106,6 +106,34 @@ def over_the_wire(session: Session) -> dict[str, float]:
         return spread(took)
 
 
+def in_chromium(session: Session) -> None:
+    """First view, edits from the hand to the picture, and pictures per second while playing."""
+    from tests.chromium import chromium
+    from tests.studio.live import live
+    from tests.studio.tab import tab
+
+    with live(session) as where, chromium() as browser:
+        for name in ("cold", "warm"):
+            begun = perf_counter()
+            with tab(browser, where) as page:
+                say(f"first view in Chromium, {name}", ms=round(1e3 * (perf_counter() - begun)))
+                if name == "cold":
+                    continue
+                page.pair("f", "ah")
+                page.pose("open")
+                place = page.ask("studio.keyAt('open', 1)")
+                page.page.mouse.move(place["x"], place["y"])
+                page.page.mouse.down()
+                for step in range(40):
+                    page.page.mouse.move(place["x"], place["y"] - step)
+                page.page.mouse.up()
+                page.settle()
+                say("from the hand to the picture", **spread(page.ask("studio.latencies()")))
+                page.ask("studio.play()")
+                page.page.wait_for_timeout(1500)
+                say("while playing", pictures_per_second=round(page.ask("studio.pictures()"), 1))
+
+
 def page_weight() -> dict[str, int]:
     """Kilobytes of the page's files, gzipped."""
     sizes = {path.suffix: 0 for path in PAGE.rglob("*") if path.suffix in (".js", ".css", ".html")}
@@ -133,6 +161,7 @@ def main() -> None:
         say(f"the same, line of {seconds}, over the socket", **over_the_wire(session))
         session.edit(SetRule("overrides", "gain", ("wide",), "", 0.9))
         say(f"the same, line of {seconds}, under gains", **milliseconds(session, whole))
+        in_chromium(session)
     weight = page_weight()
     say("the page, kB gzipped", **weight, all=sum(weight.values()))
 
