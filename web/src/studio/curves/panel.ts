@@ -223,7 +223,10 @@ export class CurvePanel {
 
   #badge(): [string, string] {
     const view = this.#session.pair;
-    if (this.mode === "phone") return ["single", "Fills pairs that the set lacks"];
+    if (this.mode === "phone") {
+      const overridden = this.#session.phone?.overridden ?? false;
+      return [overridden ? "override" : "single", "Fills pairs that the set lacks"];
+    }
     if (this.mode === "edit") return ["this line", "Drawn over the result of this line only"];
     if (!view) return ["", ""];
     if (view.overrideCurves) return ["override", `Drawn in ${view.source}`];

@@ -20,6 +20,8 @@ export class InLine {
   #hooks: Hooks;
   #host = byId("in-line");
   #items: HTMLElement[] = [];
+  #notes = h("ul", { class: "notes", "aria-label": "Notes" });
+  #noted = "";
   #spans: Span[] = [];
   #first = 0;
   #now = -1;
@@ -28,6 +30,7 @@ export class InLine {
     this.#session = session;
     this.#hooks = hooks;
     session.on(["line", "cells"], () => this.update());
+    session.on(["line", "motion"], () => this.#note());
     this.update();
   }
 
@@ -52,7 +55,8 @@ export class InLine {
     this.#items = listed.map((span, at) => this.#item(span, this.#first + at));
     const few = listed.length < line.pairs.length;
     const note = few ? h("p", { class: "section" }, "The pairs in view of a long line") : null;
-    put(this.#host, note, h("ul", { class: "list" }, ...this.#items));
+    put(this.#host, this.#notes, note, h("ul", { class: "list" }, ...this.#items));
+    this.#note();
   }
 
   /** Another part of the line is in view. */
@@ -78,6 +82,18 @@ export class InLine {
       const own = item.dataset["pair"] === nameOf(pair);
       item.firstElementChild?.setAttribute("aria-current", String(own));
     }
+  }
+
+  /** What there is to say about the line: doubts of its times, pairs that stand in. */
+  #note(): void {
+    const { line, motion } = this.#session;
+    const notes = [...new Set([...(line?.notes ?? []), ...(motion.a?.view.notes ?? [])])];
+    if (notes.join("\n") === this.#noted) return;
+    this.#noted = notes.join("\n");
+    put(this.#notes, ...notes.map((note) => h("li", {}, note)));
+    this.#notes.hidden = !notes.length;
+    const count = h("span", { class: "count warn", title: "notes" }, String(notes.length));
+    put(byId("tab-in-line"), "In line", notes.length ? count : null);
   }
 
   #listed(pairs: PairSpan[]): PairSpan[] {

@@ -124,7 +124,7 @@ export class Lines {
     put(select, ...lines.map(({ id, title }) => h("option", { value: id }, title)));
     if (!lines.length) put(select, none);
     select.disabled = !lines.length;
-    byId("remove-line").hidden = byId("say-instead").hidden = !lines.length;
+    byId("remove-line").hidden = !lines.length;
     const known = watched.line === this.#example || lines.some(({ id }) => id === watched.line);
     if (!known) this.open(lines[0]?.id ?? "");
     select.value = this.#session.watched.line ?? "";
@@ -141,6 +141,14 @@ export class Lines {
     select.value = line?.line ?? "";
     const text = byId<HTMLInputElement>("text");
     if (line?.text && document.activeElement !== text) text.value = line.text;
+    this.#offerInstead();
+  }
+
+  /** Another text may be said in place of the line. */
+  #offerInstead(): void {
+    const { line } = this.#session;
+    const text = byId<HTMLInputElement>("text").value.trim();
+    byId("say-instead").hidden = !line || line.line === this.#example || text === line.text;
   }
 
   #buttons(): void {
@@ -163,6 +171,7 @@ export class Lines {
       field.blur();
     };
     byId("say-instead").addEventListener("click", instead);
+    field.addEventListener("input", () => this.#offerInstead());
     field.addEventListener("keydown", (event) => {
       if (event.key === "Escape") field.blur();
       else if (event.key === "Enter" && event.shiftKey) {
