@@ -114,9 +114,12 @@ class Server:
 
     @contextlib.asynccontextmanager
     async def _life(self, _: Starlette) -> AsyncIterator[None]:
+        # A page asks for the model at once: it is made while the browser starts.
+        making = asyncio.create_task(asyncio.to_thread(lambda: self._session.actor.key))
         try:
             yield
         finally:
+            making.cancel()
             for job in self._jobs:
                 job.cancel()
             self._session.close()
