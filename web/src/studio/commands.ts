@@ -3,6 +3,7 @@
 import type { Key } from "../shared/keyboard.ts";
 import { middle, neighbour, spanAt } from "../shared/spans.ts";
 import { VIEWS } from "../shared/views.ts";
+import { toggleWhole } from "./core/layout.ts";
 import type { Studio } from "./studio.ts";
 import { SPEEDS } from "./line/transport.ts";
 
@@ -151,6 +152,12 @@ export function goingKeys(studio: Studio): Key[] {
     },
     { keys: ["t"], shown: ["T"], does: "type a line", act: () => studio.toText() },
     { keys: ["b"], shown: ["B"], does: "blink", act: () => studio.toggleBlink() },
+    {
+      keys: ["f"],
+      shown: ["F"],
+      does: "the part under the pointer fills the page, and back",
+      act: () => toggleWhole(),
+    },
     { keys: ["?"], shown: ["?"], does: "these keys", act: () => studio.help() },
     { keys: ["Ctrl+z"], shown: ["Ctrl", "Z"], does: "undo", act: () => studio.session.undo() },
     {

@@ -41,6 +41,20 @@ export function makeSplitters(): void {
   }
 }
 
+/** Give the part under the pointer, or with the focus, the whole page; and take it back. */
+export function toggleWhole(): void {
+  const main = document.querySelector("main") as HTMLElement;
+  if (main.dataset["whole"]) {
+    delete main.dataset["whole"];
+    return;
+  }
+  const part =
+    main.querySelector(":scope > section:hover") ??
+    document.activeElement?.closest("main > section") ??
+    null;
+  if (part) main.dataset["whole"] = part.id;
+}
+
 function drag(
   bar: HTMLElement,
   name: string,

@@ -355,6 +355,7 @@ export class CurveEditor {
   #resize(): void {
     const density = Math.min(devicePixelRatio, 3);
     const { clientWidth, clientHeight } = this.canvas;
+    if (!clientWidth || !clientHeight) return;
     this.plot.width = clientWidth;
     this.plot.height = clientHeight;
     this.canvas.width = Math.round(clientWidth * density);

@@ -138,6 +138,7 @@ export class LineCanvas {
   }
 
   resize(width: number, height: number): void {
+    if (!width || !height) return;
     const first = this.scale.width === 1;
     const density = Math.min(devicePixelRatio, 3);
     for (const canvas of [this.canvas, this.#still]) {

@@ -106,6 +106,7 @@ export class Matrix {
     const count = this.#classes.length;
     if (!count) return;
     const box = byId("navigator");
+    if (!box.clientWidth) return;
     const wide = (box.clientWidth - HEAD.side - 12) / count;
     const tall = (box.clientHeight - HEAD.top - 96) / count;
     const size = Math.max(Math.min(wide, tall, LARGEST), SMALLEST);
