@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import threading
 from base64 import b64encode
 from collections.abc import Iterator
+from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 
 import pytest
@@ -11,6 +13,7 @@ from playwright.sync_api import Browser, expect
 
 from lipwright.character import keep_character
 from lipwright.engines.bigram import read_set
+from lipwright.studio.server import PAGE
 from tests.chromium import PATIENCE, chromium
 from tests.studio.live import live
 from tests.studio.made import opened
@@ -186,21 +189,45 @@ def test_from_the_face_to_the_key_and_back(browser: Browser, desk: Path) -> None
         assert page.control("W", 0.95) < was - 0.05
 
 
-def test_a_page_of_another_origin_gets_nothing(browser: Browser, desk: Path) -> None:
+class Hostile(BaseHTTPRequestHandler):
+    """Serves an empty page, and tells nobody."""
+
+    def do_GET(self) -> None:
+        self.send_response(200)
+        self.send_header("Content-Type", "text/html")
+        self.end_headers()
+        self.wfile.write(b"<!doctype html><title>hostile</title>")
+
+    def log_message(self, *_: object) -> None:
+        pass
+
+
+@pytest.fixture(scope="module")
+def hostile() -> Iterator[str]:
+    """A page on another port: of the same site for a browser, and of another origin."""
+    with ThreadingHTTPServer(("127.0.0.1", 0), Hostile) as server:
+        thread = threading.Thread(target=server.serve_forever)
+        thread.start()
+        yield f"http://127.0.0.1:{server.server_port}/"
+        server.shutdown()
+        thread.join()
+
+
+@pytest.mark.parametrize("own", ["another port", "no origin"])
+def test_a_page_of_another_origin_gets_nothing_even_with_the_token(
+    browser: Browser, desk: Path, hostile: str, own: str
+) -> None:
     with live(opened("english", "low.json")) as studio:
         window = browser.new_context()
         page = window.new_page()
-        # A page without an origin of its own, as a hostile file or frame has none.
-        page.goto("data:text/html,<title>hostile</title>")
+        page.goto(hostile if own == "another port" else "data:text/html,<title>hostile</title>")
         address = f"127.0.0.1:{studio.port}"
         told = page.evaluate(
-            """async ([address, token]) => {
+            """async ([address, token, asset]) => {
                 const told = [];
                 const fetched = async (path, how) => {
-                    try {
-                        const answer = await fetch(`http://${address}${path}`, how);
-                        told.push(answer.type === "opaque" ? "opaque" : await answer.text());
-                    } catch { told.push("refused"); }
+                    try { told.push(await (await fetch(`http://${address}${path}`, how)).text()); }
+                    catch { told.push("refused"); }
                 };
                 await fetched("/?token=" + token);
                 await fetched("/alive", { headers: { "X-Lipwright-Token": token } });
@@ -210,18 +237,31 @@ def test_a_page_of_another_origin_gets_nothing(browser: Browser, desk: Path) -> 
                     socket.onopen = () => done("open");
                     socket.onerror = () => done("refused");
                 }));
+                const script = document.createElement("script");
+                script.src = `http://${address}/assets/${asset}?token=${token}`;
+                told.push(await new Promise(done => {
+                    script.onload = () => done("loaded");
+                    script.onerror = () => done("refused");
+                    document.head.append(script);
+                }));
                 const frame = document.createElement("iframe");
                 frame.src = `http://${address}/?token=${token}`;
                 document.body.append(frame);
                 await new Promise(done => { frame.onload = done; });
-                try { told.push(frame.contentWindow.studio ? "seen" : "refused"); }
-                catch { told.push("refused"); }
                 return told;
             }""",
-            [address, studio.token],
+            [address, studio.token, next((PAGE / "assets").glob("*.js")).name],
         )
+        framed = page.frames[1].evaluate("document.body.textContent")
         window.close()
         assert told == ["refused"] * 5
+        assert "Lipwright" not in framed
+        assert not list(studio_sounds(desk))
+
+
+def studio_sounds(desk: Path) -> Iterator[Path]:
+    """Sounds that a studio has kept."""
+    return (desk.parent / "state").rglob("*.wav")
 
 
 def test_what_somebody_else_wrote_is_shown_and_kept(browser: Browser, desk: Path) -> None:

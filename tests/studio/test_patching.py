@@ -122,13 +122,18 @@ def test_any_change_is_read_back(desk: Path, change: AnyChange) -> None:
     session.draft.close()
 
 
-def test_windows_line_ends_are_no_change(desk: Path) -> None:
+def test_windows_line_ends_stay(desk: Path) -> None:
     path = desk / "mine.json"
-    path.write_bytes(path.read_bytes().replace(b"\n", b"\r\n"))
+    lines = path.read_bytes().splitlines()
+    path.write_bytes(b"\r\n".join([*lines, b""]))
     session = opened("mine.json")
     assert session.desk.dirty(session.state) == []
     session.edit(DrawCurve("set", ("f", "ah"), "open", TRIANGLE))
     assert len(changed_lines(shown(session, SET).diff)) == 2
+    save(session, SET)
+    after = path.read_bytes().split(b"\r\n")
+    assert sum(one != other for one, other in zip(after, lines, strict=False)) == 1
+    assert not any(b"\n" in one for one in after)
 
 
 def test_overrides_in_a_form_of_their_own(desk: Path) -> None:

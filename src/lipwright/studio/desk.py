@@ -139,10 +139,11 @@ class Desk:
         if place[0] not in ("set", "overrides") or known.content is None or path != known.path:
             return new
         was = content_of(with_part(state, place, known.clean), place, path)
-        if known.content.replace(b"\r\n", b"\n") == was:
-            return new
-        text = patched(*(one.decode("utf-8-sig") for one in (known.content, was, new)))
-        return text.encode() if self._says_the_same(place, path, state, text) else new
+        own = known.content.replace(b"\r\n", b"\n")
+        if own != was:
+            text = patched(*(one.decode("utf-8-sig") for one in (own, was, new)))
+            new = text.encode() if self._says_the_same(place, path, state, text) else new
+        return new.replace(b"\n", b"\r\n") if own != known.content else new
 
     def _says_the_same(self, place: Place, path: str, state: State, text: str) -> bool:
         """Whether a text that was put together says what is open, and nothing else."""
