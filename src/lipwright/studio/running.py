@@ -17,7 +17,7 @@ from pathlib import Path
 
 import msgspec
 
-from lipwright.errors import InputError, MissingExtraError, OutputError
+from lipwright.errors import InputError, LipwrightError, MissingExtraError, OutputError
 from lipwright.files import write_atomically
 from lipwright.studio.desk import Place
 from lipwright.studio.drafts import Draft, draft_folder
@@ -98,11 +98,13 @@ def run(
         If the extra ``studio`` is not installed.
     InputError
         If a file cannot be opened, or the port is taken.
+    LipwrightError
+        If the page has not been built.
     """
     try:
         import uvicorn
 
-        from lipwright.studio.server import Server
+        from lipwright.studio.server import PAGE, Server
     except ImportError:
         raise MissingExtraError.of("the studio", "studio") from None
     folder = draft_folder(given.key())
@@ -114,6 +116,11 @@ def run(
         return
     with listen(port, known) as listening:
         session = open_session(given, None, note)
+        if not (PAGE / "index.html").is_file():
+            raise LipwrightError(
+                "the studio's page has not been built",
+                cure="install Lipwright again, or type in its source folder: python hatch_build.py",
+            )
         token = known.token if known else secrets.token_urlsafe(24)
         seat = Seat(listening.getsockname()[1], token)
         _keep_seat(folder, seat)
