@@ -5,6 +5,7 @@ import { spanAt } from "../shared/spans.ts";
 import type { Peaks } from "../shared/wav.ts";
 import { byId, h, icon, put, write } from "./core/dom.ts";
 import { dragName, Stream } from "./core/drag.ts";
+import { makeSeen } from "./core/layout.ts";
 import { Measure } from "./core/measure.ts";
 import { nameOf, Session, type Pair } from "./core/session.ts";
 import { followTheme, isDark, toggleTheme } from "./core/theme.ts";
@@ -187,6 +188,7 @@ export class Studio {
 
   openPair(pair: Pair): void {
     this.#then = null;
+    makeSeen("editor");
     this.panel.openPair(pair);
     this.matrix.choose(pair);
     this.inLine.choose(pair);
@@ -206,6 +208,7 @@ export class Studio {
   async askWhy(control: string, time: number): Promise<void> {
     this.controls.choose(control);
     this.canvas.asked = { control, time };
+    makeSeen("side");
     this.inspector.show("why");
     await this.why.ask(control, time);
     this.ask();

@@ -55,6 +55,12 @@ export function toggleWhole(): void {
   if (part) main.dataset["whole"] = part.id;
 }
 
+/** A part has something to show: it is not to lie behind another that fills the page. */
+export function makeSeen(part: string): void {
+  const main = document.querySelector("main") as HTMLElement;
+  if (main.dataset["whole"] !== part) delete main.dataset["whole"];
+}
+
 function drag(
   bar: HTMLElement,
   name: string,
