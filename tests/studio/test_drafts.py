@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import errno
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -132,3 +134,42 @@ def test_a_set_that_changed_since_is_compared_with_what_was_opened(desk: Path) -
     again.take_draft()
     shown = again.desk.preview(("set", ""), again.state, "")
     assert '+  "name": "other"' in shown.theirs
+
+
+def test_a_full_disk_is_said_and_nothing_is_changed(
+    desk: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    session = opened("english")
+    session.edit(GAIN)
+    before, journal = contents(session), session.draft.path.read_bytes()
+    whole = Path.open
+
+    class Full:
+        """A file that takes ten bytes more."""
+
+        def __init__(self, file: Any) -> None:
+            self._file = file
+
+        def __enter__(self) -> Full:
+            return self
+
+        def __exit__(self, *_: object) -> None:
+            self._file.close()
+
+        def write(self, data: bytes) -> None:
+            self._file.write(data[:10])
+            raise OSError(errno.ENOSPC, "No space left on device")
+
+        def __getattr__(self, name: str) -> Any:
+            return getattr(self._file, name)
+
+    monkeypatch.setattr(Path, "open", lambda *a, **k: Full(whole(*a, **k)))
+    studio, watcher = talk(session)
+    (failed,) = studio.ask(watcher, messages.EditRequest(change=F_AH)).own
+    assert isinstance(failed, messages.Failed)
+    assert "No space left" in failed.error
+    monkeypatch.undo()
+    assert contents(session) == before
+    assert session.draft.path.read_bytes() == journal
+    session.edit(F_AH)
+    assert session.history.undo_steps == 2

@@ -19,6 +19,7 @@ from pathlib import Path
 
 import msgspec
 
+from lipwright.errors import OutputError
 from lipwright.files import write_atomically
 from lipwright.studio.changes import AnyChange, LineData
 from lipwright.studio.messages import Document
@@ -134,9 +135,24 @@ class Draft:
         write_atomically(self.path, b"".join(_ENCODER.encode(one) + b"\n" for one in records))
 
     def append(self, record: Record) -> None:
-        """Put a record on disk."""
-        with self.path.open("ab") as file:
-            file.write(_ENCODER.encode(record) + b"\n")
+        """Put a record on disk: whole, or not at all.
+
+        Raises
+        ------
+        OutputError
+            If it cannot be written.
+        """
+        with self.path.open("ab", buffering=0) as file:
+            size = file.tell()
+            try:
+                file.write(_ENCODER.encode(record) + b"\n")
+            except OSError as error:
+                file.truncate(size)
+                raise OutputError(
+                    f"the draft cannot be written ({error.strerror}): nothing was changed",
+                    where=str(self.path),
+                    cure="make room on the disk",
+                ) from None
 
     def set_aside(self) -> None:
         """Move a journal with changes aside; the oldest of many go."""

@@ -23,7 +23,7 @@ from lipwright.engines.bigram.edits import edits_from
 from lipwright.engines.bigram.overrides import Overrides, overrides_from
 from lipwright.engines.bigram.set_file import built_in_sets
 from lipwright.errors import InputError
-from lipwright.files import parse_json, read_bytes
+from lipwright.files import decode_text, parse_json, read_bytes
 from lipwright.speech import Speech
 from lipwright.studio.changes import LineData
 from lipwright.studio.lines import Sounds, line_of
@@ -282,7 +282,7 @@ def _speeches(
 
 def _text_beside(name: str) -> str | None:
     path = Path(name).with_suffix(".txt")
-    return path.read_text("utf-8-sig").strip() if path.is_file() else None
+    return decode_text(read_bytes(path), str(path)).strip() if path.is_file() else None
 
 
 def _of_animation(name: str) -> Speech:

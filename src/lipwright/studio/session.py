@@ -285,17 +285,19 @@ class Session:
     def undo(self, steps: int) -> None:
         """Take back steps."""
         self._check_decided()
-        gone = self.steps.undo(steps)
-        if gone:
+        gone = min(steps, self.steps.undo_steps)
+        if gone > 0:
             self.draft.append(Undid(gone))
+            self.steps.undo(gone)
             self.recast()
 
     def redo(self, steps: int) -> None:
         """Do steps again."""
         self._check_decided()
-        gone = self.steps.redo(steps)
-        if gone:
+        gone = min(steps, self.steps.redo_steps)
+        if gone > 0:
             self.draft.append(Redid(gone))
+            self.steps.redo(gone)
             self.recast()
 
     def recast(self) -> None:
