@@ -39,6 +39,8 @@ export interface Hooks {
   enter(): void;
 }
 
+/** A weight at which a pose is clearly seen. */
+const CLEAR = 0.3;
 /** Milliseconds after which a key that is pressed again begins another step of undo. */
 const PAUSE = 700;
 
@@ -92,7 +94,7 @@ export class CurveEditor {
     }
     if (subject) this.plot.show(subject.domain);
     if (other) this.plot.fit();
-    if (other && !this.#curves[this.active]) this.active = strongest(this.#curves) || this.active;
+    if (other && !this.#curves[this.active]) this.active = mostSeen(this.#curves) || this.active;
     this.#keepValid();
     this.refresh();
     this.hooks.chosen();
@@ -391,13 +393,12 @@ export class CurveEditor {
   }
 }
 
-/** The pose with the greatest weight: what one wants to see first. */
-function strongest(curves: Curves): string {
-  const peak = (keys: Key[]) => Math.max(0, ...keys.map(([, value]) => value));
-  return Object.keys(curves).reduce(
-    (best, name) => (!best || peak(curves[name]) > peak(curves[best]) ? name : best),
-    "",
-  );
+/** Of the poses that are clearly seen the first, or else the strongest: sets begin with the lips. */
+function mostSeen(curves: Curves): string {
+  const names = Object.keys(curves);
+  const peak = (name: string) => Math.max(0, ...curves[name].map(([, value]) => value));
+  const strongest = names.reduce((best, name) => (peak(name) > peak(best) ? name : best), names[0]);
+  return names.find((name) => peak(name) >= CLEAR) ?? strongest ?? "";
 }
 
 function same(a: Key[] | undefined, b: Key[] | undefined): boolean {
