@@ -12,7 +12,7 @@ import pytest
 from playwright.sync_api import Browser, expect
 
 from lipwright.character import keep_character
-from lipwright.engines.bigram import read_set
+from lipwright.engines.bigram import read_edits, read_set
 from lipwright.studio.server import PAGE
 from tests.chromium import PATIENCE, chromium
 from tests.studio.live import live
@@ -284,3 +284,57 @@ def test_what_somebody_else_wrote_is_shown_and_kept(browser: Browser, desk: Path
         made = read_set(path)
         assert made.bigrams["l", "ow"].word == "slowly"
         assert made.bigrams["f", "ah"].curves["open"].pairs()[1][1] == ours
+
+
+def test_a_correction_hangs_on_its_phone_and_is_saved_beside_the_line(
+    browser: Browser, desk: Path
+) -> None:
+    session = opened("english", "low.json")
+    with live(session) as studio, tab(browser, studio) as page:
+        page.page.locator("#tab-edits").click()
+        edge = page.ask("studio.edgeAt(8)")  # the end of ow in "low"
+        page.page.mouse.click(edge["x"] - 12, edge["y"])
+        page.page.get_by_label("Pose to correct").select_option("open")
+        was = page.control("open", 1.05)
+        slider = page.page.get_by_label("reaches: a weight in the middle")
+        slider.fill("0.9")
+        page.settle()
+        assert page.control("open", 1.05) > was + 0.2
+        (edit,) = session.state.lines["1"].edits
+        assert (edit.word, edit.phone, edit.label, edit.level) == ("low", 2, "ow", 0.9)
+        page.page.locator("#save").click()
+        page.page.locator("#write").click()
+        expect(page.page.locator("#unsaved")).to_be_hidden()
+        assert read_edits(desk / "low.edits.json") == (edit,)
+
+
+def test_an_example_word_is_heard(browser: Browser, desk: Path) -> None:
+    with live(opened("english")) as studio, tab(browser, studio) as page:
+        page.pair("bmp", "ah")
+        page.page.locator("#hear-word").click()
+        page.page.wait_for_function("() => studio.sounding()")
+
+
+def test_a_key_is_moved_and_taken_back_by_keyboard_alone(browser: Browser, desk: Path) -> None:
+    session = opened("mine.json", "low.json")
+    with live(session) as studio, tab(browser, studio) as page:
+        page.pair("l", "ow")
+        page.pose("W")
+        drawn = page.curve("W")
+        page.page.locator("#curves").focus()
+        press = page.page.keyboard.press
+        for _ in range(len(drawn)):
+            press(".")
+            press("Shift+ArrowUp")
+            page.settle()
+        assert page.curve("W") != drawn
+        steps = session.history.undo_steps
+        assert 1 <= steps <= len(drawn)
+        for _ in range(steps):
+            press("Control+z")
+            page.settle()
+        assert session.history.undo_steps == 0
+        assert page.curve("W") == drawn
+        press("Control+Shift+z")
+        page.settle()
+        assert page.curve("W") != drawn

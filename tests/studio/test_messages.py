@@ -224,7 +224,7 @@ def test_every_kind_of_second_version_moves(desk: Path) -> None:
         Variant("set", "klingon"),
         Variant("preset", "brisk"),
         Variant("character", "nobody"),
-        Variant("engine", "neural"),
+        Variant("engine", "steam"),
     ],
 )
 def test_a_second_version_that_is_not_there_is_refused(desk: Path, other: Variant) -> None:

@@ -138,7 +138,7 @@ def play(session: Session, todo: list[tuple[str, object, str]]) -> Iterator[None
 
 
 @settings(
-    max_examples=150,
+    max_examples=25,
     deadline=None,
     phases=[Phase.explicit, Phase.reuse, Phase.generate],
     suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow],

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from time import perf_counter
 from typing import TYPE_CHECKING
 
-from lipwright.casting import check_engine, engine_for
+from lipwright.casting import engine_for
 from lipwright.engines.bigram import BigramEngine
 from lipwright.errors import InputError
 from lipwright.studio.actors import Actor
@@ -110,14 +110,12 @@ def _performed(session: Session, line: LineData, name: str) -> Motion:
 
     begun = perf_counter()
     speech = speech_of(line, session.sounds)
-    model = session.given.model or None
-    check_engine(name, None, (), model if name == "neural" else None)
     performance = pipeline.animate(
         speech,
         engine=name,
         character=session.actor.spec,
         rate=RATE,
-        model=model if name == "neural" else None,
+        model=session.given.model or None if name == "neural" else None,
         controls="poses" if name == "motion" else None,
     )
     shown = performance.animation
