@@ -184,3 +184,15 @@ test("the edge of a frame goes where it is held, and what it holds goes along", 
   for (const list of [...Object.values(wide), ...Object.values(weak)]) assertDrawable(list);
   assert.equal(frameOf(both(), chosen({ FV: [1] })), null);
 });
+
+test("of several poses the first that is clearly seen is edited first", () => {
+  assert.equal(keys.mostSeen({ open: OPEN, FV }), "open");
+  const faint: Key[] = [
+    [0, 0],
+    [0.5, 0.1],
+    [1, 0],
+  ];
+  assert.equal(keys.mostSeen({ open: faint, FV }), "FV");
+  assert.equal(keys.mostSeen({ open: faint }), "open");
+  assert.equal(keys.mostSeen({}), "");
+});

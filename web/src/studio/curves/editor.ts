@@ -39,8 +39,6 @@ export interface Hooks {
   enter(): void;
 }
 
-/** A weight at which a pose is clearly seen. */
-const CLEAR = 0.3;
 /** Milliseconds after which a key that is pressed again begins another step of undo. */
 const PAUSE = 700;
 
@@ -94,7 +92,8 @@ export class CurveEditor {
     }
     if (subject) this.plot.show(subject.domain);
     if (other) this.plot.fit();
-    if (other && !this.#curves[this.active]) this.active = mostSeen(this.#curves) || this.active;
+    if (other && !this.#curves[this.active])
+      this.active = act.mostSeen(this.#curves) || this.active;
     this.#keepValid();
     this.refresh();
     this.hooks.chosen();
@@ -303,7 +302,7 @@ export class CurveEditor {
   /** Show curves as they are now, and tell whoever keeps them. */
   take(curves: Curves, merge = ""): void {
     const names = [...new Set([...Object.keys(curves), ...Object.keys(this.#curves)])];
-    const changed = names.filter((name) => !same(curves[name], this.#curves[name]));
+    const changed = names.filter((name) => !act.same(curves[name], this.#curves[name]));
     this.#curves = curves;
     this.#keepValid();
     this.refresh();
@@ -391,17 +390,4 @@ export class CurveEditor {
       ...this.#pointer.marks(),
     });
   }
-}
-
-/** Of the poses that are clearly seen the first, or else the strongest: sets begin with the lips. */
-function mostSeen(curves: Curves): string {
-  const names = Object.keys(curves);
-  const peak = (name: string) => Math.max(0, ...curves[name].map(([, value]) => value));
-  const strongest = names.reduce((best, name) => (peak(name) > peak(best) ? name : best), names[0]);
-  return names.find((name) => peak(name) >= CLEAR) ?? strongest ?? "";
-}
-
-function same(a: Key[] | undefined, b: Key[] | undefined): boolean {
-  if (!a || !b || a.length !== b.length) return a === b;
-  return a.every(([time, value], index) => time === b[index][0] && value === b[index][1]);
 }

@@ -16,6 +16,8 @@ export interface Domain {
 /** Which keys of which curve are chosen. */
 export type Chosen = ReadonlyMap<string, ReadonlySet<number>>;
 
+/** A weight at which a pose is clearly seen. */
+const CLEAR = 0.3;
 /** Two keys of a curve are never closer than this. */
 export const GAP = 0.001;
 
@@ -236,4 +238,18 @@ export function snap(value: number, places: number[], within: number): number {
     if (far <= least) [best, least] = [place, far];
   }
   return best;
+}
+
+/** Of the poses that are clearly seen the first, or else the strongest: sets begin with the lips. */
+export function mostSeen(curves: Curves): string {
+  const names = Object.keys(curves);
+  const peak = (name: string) => Math.max(0, ...curves[name].map(([, value]) => value));
+  const strongest = names.reduce((best, name) => (peak(name) > peak(best) ? name : best), names[0]);
+  return names.find((name) => peak(name) >= CLEAR) ?? strongest ?? "";
+}
+
+/** Whether two curves have the same keys. */
+export function same(a: Key[] | undefined, b: Key[] | undefined): boolean {
+  if (!a || !b || a.length !== b.length) return a === b;
+  return a.every(([time, value], index) => time === b[index][0] && value === b[index][1]);
 }
