@@ -47,4 +47,5 @@ bench: $(READY) client
 	@$(BIN)/python -m bench
 
 clean:
-	rm -rf .venv demo web/node_modules web/dist src/lipwright/export/player.html
+	rm -rf .venv demo web/node_modules web/dist web/dist-studio src/lipwright/export/player.html \
+		src/lipwright/studio/page

@@ -1,7 +1,8 @@
 """The build of the web client, as hatchling's hook and as a small program.
 
-``pip install`` calls the hook: it leaves ``src/lipwright/export/player.html``, which goes into
-the wheel and the sdist, and does nothing when that file was made from the present sources.
+``pip install`` calls the hook: it leaves ``src/lipwright/export/player.html``, one file without
+requests, and ``src/lipwright/studio/page/``, which the studio's server hands out. Both go into
+the wheel and the sdist; what was made from the present sources is not made again.
 
 As a program, without any node on the machine::
 
@@ -29,7 +30,8 @@ except ImportError:  # as a program it needs no hatchling
 ROOT = Path(__file__).parent
 WEB = ROOT / "web"
 PAGE = ROOT / "src" / "lipwright" / "export" / "player.html"
-SOURCES = ("index.html", "package-lock.json", "vite.config.ts", "src/**/*")
+STUDIO = ROOT / "src" / "lipwright" / "studio" / "page"
+SOURCES = ("*.html", "package-lock.json", "vite*.config.ts", "src/**/*")
 OLDEST_NODE = (22, 18)
 SHOWN = 8
 
@@ -43,20 +45,47 @@ class CustomBuildHook(BuildHookInterface):  # type: ignore[type-arg, misc, unuse
 
 
 def build() -> None:
-    """Make ``player.html`` unless it was made from the present sources."""
+    """Make both pages unless they were made from the present sources."""
     if not WEB.is_dir():
-        if PAGE.is_file():
+        if PAGE.is_file() and (STUDIO / "index.html").is_file():
             return
-        raise stopped("the folder 'web' is missing, and no built page is there")
+        raise stopped("the folder 'web' is missing, and no built pages are there")
     mark = f"<!-- client {digest()} -->"
-    if PAGE.is_file() and PAGE.read_text("utf-8").rstrip().endswith(mark):
-        return
-    install(everything=False)
-    run("build the page", [node(), str(module("vite", "bin/vite.js")), "build"])
+    if not is_marked(PAGE, mark):
+        build_player(mark)
+    if not is_marked(STUDIO / "index.html", mark):
+        build_studio(mark)
+
+
+def is_marked(page: Path, mark: str) -> bool:
+    """Whether a page was made from the sources of a mark."""
+    return page.is_file() and page.read_text("utf-8").rstrip().endswith(mark)
+
+
+def build_player(mark: str) -> None:
+    """Make the page that plays a line."""
+    bundle("vite.config.ts")
     text = (WEB / "dist" / "index.html").read_text("utf-8").rstrip()
     part = PAGE.with_suffix(".part")
     part.write_text(f"{text}\n{mark}\n", "utf-8", newline="\n")
     part.replace(PAGE)
+
+
+def build_studio(mark: str) -> None:
+    """Make the studio's page: the marked index comes last, so that a half is never taken whole."""
+    bundle("vite.studio.config.ts")
+    made = WEB / "dist-studio"
+    text = (made / "studio.html").read_text("utf-8").rstrip()
+    shutil.rmtree(STUDIO, ignore_errors=True)
+    shutil.copytree(made / "assets", STUDIO / "assets")
+    (STUDIO / "index.html").write_text(f"{text}\n{mark}\n", "utf-8", newline="\n")
+
+
+def bundle(config: str) -> None:
+    """Let Vite make what one of its files says."""
+    install(everything=False)
+    program = str(module("vite", "bin/vite.js"))
+    run("build the page", [node(), program, "build", "--config", config])
 
 
 def digest() -> str:

@@ -15,6 +15,7 @@ MEASURES = (
     "speaking",
     "stages",
     "models",
+    "studio",
     "languages",
     "mandarin",
     "aligning",

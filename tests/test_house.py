@@ -31,6 +31,7 @@ LAYERS = [
         "recorded",
         "recorded_database",
     ),
+    ("studio",),
     ("cli",),
 ]
 APART = ("schedule", "engines", "character", "export", "evaluate")

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { Clock } from "../src/clock.ts";
+import { Clock } from "../src/shared/clock.ts";
 
 function ticking(start = 0, end = 2) {
   const ticks = { now: 100 };

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { curves, endOf, peaks, sample } from "../src/curves.ts";
+import { curves, endOf, peaks, sample } from "../src/shared/curves.ts";
 
 const two = curves(["open", "W"], 10, -0.1, [
   [0, 1],

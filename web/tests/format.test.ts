@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { clockTime, milliseconds, niceStep, rulerTime } from "../src/format.ts";
+import { clockTime, milliseconds, niceStep, rulerTime } from "../src/shared/format.ts";
 
 test("times are minutes, seconds and thousandths", () => {
   assert.equal(clockTime(0), "0:00.000");

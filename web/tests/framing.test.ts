@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { BufferGeometry, Float32BufferAttribute, Group, Mesh } from "three";
-import { distance, framing } from "../src/framing.ts";
+import { distance, framing } from "../src/shared/framing.ts";
 
 /** A column of points from the floor to `height`; at the lips four of them are moved by "PBM". */
 function figure(height: number, lips: number): { root: Group; mesh: Mesh } {

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { blink } from "../src/idle.ts";
+import { blink } from "../src/shared/idle.ts";
 
 const times = Array.from({ length: 60 * 60 }, (_, frame) => frame / 60);
 

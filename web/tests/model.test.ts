@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { BufferGeometry, Float32BufferAttribute, Group, Mesh, Quaternion, Vector3 } from "three";
-import { Model } from "../src/model.ts";
+import { Model } from "../src/shared/model.ts";
 
 /** A point that each target moves up, by 1, 2, 3 ... */
 function meshWith(...names: string[]): Mesh {

@@ -1,6 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { ON_DARK, ON_LIGHT, stroke } from "../src/palette.ts";
+import { STAGES, stageStroke } from "../src/studio/line/palette.ts";
+import { ON_DARK, ON_LIGHT, stroke } from "../src/shared/palette.ts";
 
 type Colour = [number, number, number];
 
@@ -84,3 +85,23 @@ test("fifty curves have fifty strokes", () => {
   const strokes = Array.from({ length: 50 }, (_, index) => JSON.stringify(stroke(index, true)));
   assert.equal(new Set(strokes).size, 50);
 });
+
+for (const [theme, dark, page] of [
+  ["dark", true, "#131519"],
+  ["light", false, "#f4f4f2"],
+] as const) {
+  test(`the stages stay apart on the ${theme} page for all eyes`, () => {
+    const colours = STAGES.map((name) => stageStroke(name, dark, false).colour);
+    for (const matrix of Object.values(EYES)) {
+      const seen = colours.map((colour) => oklab(times(matrix, linear(colour))));
+      for (const [index, a] of seen.entries())
+        for (const b of seen.slice(index + 1))
+          assert.ok(Math.hypot(...a.map((value, at) => value - b[at])) > 0.09);
+    }
+  });
+
+  test(`the publication's colours of the stages can be read on the ${theme} page`, () => {
+    for (const name of STAGES)
+      assert.ok(contrast(stageStroke(name, dark, true).colour, page) >= 3, name);
+  });
+}

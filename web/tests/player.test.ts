@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test, type TestContext } from "node:test";
-import { Player } from "../src/player.ts";
-import type { Voice } from "../src/voice.ts";
+import { Player } from "../src/shared/player.ts";
+import type { Voice } from "../src/shared/voice.ts";
 
 /** A loudspeaker that notes what it is told, and whose time is moved by hand. */
 class Loudspeaker {

@@ -1,8 +1,8 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { hit, layOut } from "../src/rows.ts";
-import { Scale } from "../src/scale.ts";
-import { neighbour, spanAt } from "../src/spans.ts";
+import { hit, layOut } from "../src/shared/rows.ts";
+import { Scale } from "../src/shared/scale.ts";
+import { neighbour, spanAt } from "../src/shared/spans.ts";
 
 const phones = [
   { label: "p", start: 0, end: 0.1 },

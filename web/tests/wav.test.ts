@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { extent, peaksOf, readWav } from "../src/wav.ts";
+import { extent, peaksOf, readWav } from "../src/shared/wav.ts";
 
 function wav(samples: number[], { bits = 16, channels = 1, extra = false } = {}): ArrayBuffer {
   const chunk = (name: string, body: Buffer) => {

@@ -175,6 +175,16 @@ class Character:
         driven = {name: joints[name] for name in channels.controls if name in joints}
         return RiggedModel(self.name, self.model().to_glb(), channels, driven)
 
+    def channels(self, animation: Animation) -> Animation:
+        """Return the rig's channels over time: :meth:`rig` without the model.
+
+        Raises
+        ------
+        CharacterError
+            If none of the controls moves anything on this model.
+        """
+        return self._drive(animation, self.fit())
+
     def _drive(self, animation: Animation, fitting: Fitting) -> Animation:
         try:
             driven = fitting.drive(animation)

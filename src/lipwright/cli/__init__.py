@@ -26,6 +26,7 @@ COMMANDS = {
     "motion": ("lipwright.cli.motion", "motion", "Recorded motion: build, add, info, bind."),
     "neural": ("lipwright.cli.neural", "neural", "Nets that hear: train, info."),
     "character": ("lipwright.cli.characters", "character", "What a character's rig has."),
+    "studio": ("lipwright.cli.studio", "studio", "Edit sets and lines in the browser."),
     "evaluate": ("lipwright.cli.evaluate", "evaluate", "Hold animation against recordings."),
 }
 

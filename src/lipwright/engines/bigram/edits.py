@@ -23,7 +23,7 @@ from lipwright.engines.bigram.model import Pose
 from lipwright.engines.bigram.polyline import Axis, Line, merge_equal
 from lipwright.engines.bigram.table import Placed
 from lipwright.errors import InputError, SetError
-from lipwright.files import convert, read_document
+from lipwright.files import check_document, convert, parse_json, read_bytes
 from lipwright.timeline import Interval, Tier
 
 FORMAT, VERSION = "lipwright/edits", 1
@@ -105,8 +105,13 @@ def read_edits(path: str | Path) -> tuple[Edit, ...]:
     FileFormatError
         If it is broken; the message names the place.
     """
-    document = read_document(path, format=FORMAT, version=VERSION)
-    return convert(document, _Document, str(path)).edits
+    return edits_from(read_bytes(path), str(path))
+
+
+def edits_from(data: bytes, where: str) -> tuple[Edit, ...]:
+    """Return the edits that the content of a file holds."""
+    document = check_document(parse_json(data, where), where, format=FORMAT, version=VERSION)
+    return convert(document, _Document, where).edits
 
 
 @dataclass(frozen=True, slots=True)
@@ -133,7 +138,7 @@ def find(
 
 def _phone(edit: Edit, phones: Sequence[Interval], words: Tier) -> Interval | None:
     if edit.word:
-        same = [word for word in words if _plain(word.label) == _plain(edit.word)]
+        same = [word for word in words if plain_word(word.label) == plain_word(edit.word)]
         if len(same) < edit.occurrence:
             return None
         word = same[edit.occurrence - 1]
@@ -146,7 +151,13 @@ def _phone(edit: Edit, phones: Sequence[Interval], words: Tier) -> Interval | No
     return phone if edit.label in ("", phone.label) else None
 
 
-def _plain(word: str) -> str:
+def same_place(one: Edit, other: Edit) -> bool:
+    """Whether two edits hang on one phone and change one pose."""
+    alike = (one.phone, one.occurrence, one.pose) == (other.phone, other.occurrence, other.pose)
+    return alike and plain_word(one.word) == plain_word(other.word)
+
+
+def plain_word(word: str) -> str:
     """Return a word in one spelling: any case, either Unicode form, without punctuation."""
     folded = unicodedata.normalize("NFC", unicodedata.normalize("NFC", word).casefold())
     return "".join(letter for letter in folded if letter.isalnum() or _is_written(letter))

@@ -100,6 +100,8 @@ class BigramEngine:
         ``"default"``, ``"published"``, or one of the set's own.
     reduction : str, optional
         Path of a reduction file to use instead of the one for the track's phone set.
+    like : BigramEngine, optional
+        An engine of nearly the same set: what both share is not made again.
 
     Raises
     ------
@@ -108,13 +110,18 @@ class BigramEngine:
     """
 
     def __init__(
-        self, of: BigramSet, preset: str = "default", reduction: str | None = None
+        self,
+        of: BigramSet,
+        preset: str = "default",
+        reduction: str | None = None,
+        like: BigramEngine | None = None,
     ) -> None:
         self.of = of
         self.preset = preset
         self.rules: Rules = of.preset(preset)
         self.plan = Plan.of(self.rules)
-        self.table = Table(of, self.plan.names)
+        names = self.plan.names
+        self.table: Table = like.table.for_set(of, names) if like else Table(of, names)
         self._reduction = reduction
         _keep_freed_memory()
 
@@ -237,7 +244,10 @@ class BigramEngine:
         """
         if not 1 <= rate <= FASTEST:
             raise InputError(f"{rate:g} frames per second", expected=f"1 to {FASTEST:g}")
-        solved = self.solve(speech.phones, speech.words, edits)
+        return self.animate_solved(self.solve(speech.phones, speech.words, edits), speech, rate)
+
+    def animate_solved(self, solved: Solved, speech: Speech, rate: float = RATE) -> Animation:
+        """Return the animation of a line that was solved already."""
         start, end = self._range(solved, speech)
         first = math.floor(start * rate + 1e-6)
         count = max(math.ceil(end * rate - 1e-6) - first, 0) + 1

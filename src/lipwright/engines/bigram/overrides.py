@@ -10,47 +10,77 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
 import msgspec
 
 from lipwright.curves import Keys
+from lipwright.engines.bigram.documents import OVERRIDES_FORMAT, OverridesDocument
 from lipwright.engines.bigram.layer import Layer
 from lipwright.engines.bigram.model import (
+    Bigram,
     BigramSet,
     Conflict,
     Curves,
+    Pair,
     Pose,
     Rules,
     Settings,
 )
-from lipwright.engines.bigram.set_file import (
-    BigramEntry,
-    KeyList,
-    digest_of,
-    read_bigrams,
-    read_curves,
-)
+from lipwright.engines.bigram.set_file import digest_of, read_bigrams, read_curves
 from lipwright.errors import InputError, SetError, did_you_mean
-from lipwright.files import check_document, convert, read_bytes, read_document
+from lipwright.files import check_document, convert, parse_json, read_bytes
 from lipwright.phones import load_phone_set
 
-FORMAT, VERSION = "lipwright/bigram-overrides", 1
+FORMAT, VERSION = OVERRIDES_FORMAT, 1
 
 
-class _Overrides(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    version: int
+@dataclass(frozen=True, slots=True)
+class Overrides:
+    """What one layer changes of a set, checked against its classes; poses are checked later.
+
+    Parameters
+    ----------
+    name : str
+        Its own name.
+    where : str
+        Its file, and for one inside a character file the place in it.
+    character : str
+        The character that brought it; nothing where the user gave it.
+    bigrams : mapping of pair to Bigram
+    singles : mapping of str to curves
+    gains, poses, conflicts, settings
+        As :class:`~lipwright.engines.bigram.documents.OverridesDocument` has them.
+    about : str
+    boundary : float
+        Of bigrams that do not say their own.
+    digest : str
+        Tells its content from any other.
+    named_by : str
+        The character file, and the place in it, that names the override file.
+    """
+
     name: str
+    where: str = ""
+    character: str = ""
+    bigrams: Mapping[Pair, Bigram] = field(default_factory=dict)
+    singles: Mapping[str, Curves] = field(default_factory=dict)
+    gains: Mapping[str, float] = field(default_factory=dict)
+    poses: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
+    conflicts: tuple[Conflict, ...] = ()
+    settings: Mapping[str, Any] = field(default_factory=dict)
     about: str = ""
     boundary: float = 0.5
-    bigrams: list[BigramEntry] = []
-    gains: dict[str, float] = {}
-    phones: dict[str, dict[str, KeyList]] = {}
-    poses: dict[str, dict[str, Any]] = {}
-    conflicts: list[Conflict] = []
-    settings: dict[str, Any] = {}
+    digest: str = ""
+    named_by: str = ""
+
+    @property
+    def says_nothing(self) -> bool:
+        """Whether it changes nothing."""
+        said = self.bigrams, self.singles, self.gains, self.poses, self.conflicts, self.settings
+        return not any(said)
 
 
 def read_overrides(path: str | Path, base: BigramSet, character: str = "") -> BigramSet:
@@ -68,10 +98,45 @@ def read_overrides(path: str | Path, base: BigramSet, character: str = "") -> Bi
     SetError, FileFormatError
         If it is broken, or names what the set has not.
     """
-    where = str(path)
-    document = read_document(path, format=FORMAT, version=VERSION)
-    read = convert(document, _Overrides, where)
-    return _with_layer(base, read, where, character, read_bytes(path))
+    return lay_over(base, open_overrides(path, base.phone_set, character))
+
+
+def open_overrides(path: str | Path, phone_set: str, character: str = "") -> Overrides:
+    """Return what an override file says, to be laid over a set of these classes."""
+    return overrides_from(read_bytes(path), str(path), phone_set, character)
+
+
+def overrides_from(data: bytes, where: str, phone_set: str, character: str = "") -> Overrides:
+    """Return what the content of an override file says."""
+    document = check_document(parse_json(data, where), where, format=FORMAT, version=VERSION)
+    read = convert(document, OverridesDocument, where)
+    return checked_overrides(read, phone_set, where, character, data)
+
+
+def checked_overrides(
+    read: OverridesDocument, phone_set: str, where: str, character: str = "", data: bytes = b""
+) -> Overrides:
+    """Return what overrides say, its bigrams and curves made; an error names the place."""
+    try:
+        classes = load_phone_set(phone_set)
+        bigrams = read_bigrams(read.bigrams, read.boundary, read.name, classes)
+        singles = {label: read_curves(c, f"phone {label!r}") for label, c in read.phones.items()}
+    except InputError as error:
+        raise error.at(where) from None
+    return Overrides(
+        read.name,
+        where,
+        character,
+        bigrams,
+        singles,
+        read.gains,
+        read.poses,
+        tuple(read.conflicts),
+        read.settings,
+        read.about,
+        read.boundary,
+        digest_of(data),
+    )
 
 
 def with_character(
@@ -83,9 +148,26 @@ def with_character(
 ) -> BigramSet:
     """Return ``base`` with what a character file changes; what says nothing leaves it alone.
 
+    The parameters and errors are those of :func:`character_overrides`.
+    """
+    for part in character_overrides(base.phone_set, name, where, overrides, settings):
+        base = lay_over(base, part)
+    return base
+
+
+def character_overrides(
+    phone_set: str,
+    name: str,
+    where: str,
+    overrides: Sequence[str | Mapping[str, Any]],
+    settings: Mapping[str, Any],
+) -> tuple[Overrides, ...]:
+    """Return what a character file changes of a set, layer by layer.
+
     Parameters
     ----------
-    base : BigramSet
+    phone_set : str
+        Of the set.
     name, where : str
         The character's name and file.
     overrides : sequence of str or mapping
@@ -101,20 +183,21 @@ def with_character(
     """
     own = _own_parts(name, where, overrides, settings)
     _refuse_twice(own, where)
-    for number, part in enumerate(overrides):
+    found = []
+    for number, part in enumerate((*overrides, settings)):
         if isinstance(part, str):
+            place = f"{where}, overrides"
             try:
-                base = read_overrides(part, base, name)
+                found.append(replace(open_overrides(part, phone_set, name), named_by=place))
             except InputError as error:
-                raise error.at(f"{where}, overrides") from None
-        else:
-            base = _with_own(base, own[number], name, part)
-    if settings:
-        base = _with_own(base, own[len(overrides)], name, settings)
-    return base
+                raise error.at(place) from None
+        elif number in own and any(True for _ in _sayings(own[number][1])):
+            data = json.dumps(part, sort_keys=True).encode()
+            found.append(checked_overrides(own[number][1], phone_set, own[number][0], name, data))
+    return tuple(found)
 
 
-Part = tuple[str, _Overrides]
+_Part = tuple[str, OverridesDocument]
 
 
 def _own_parts(
@@ -122,7 +205,7 @@ def _own_parts(
     where: str,
     overrides: Sequence[str | Mapping[str, Any]],
     settings: Mapping[str, Any],
-) -> dict[int, Part]:
+) -> dict[int, _Part]:
     """What stands in the character file itself: where, and what; by place in the list."""
     parts = {}
     for number, part in enumerate(overrides):
@@ -131,7 +214,7 @@ def _own_parts(
             place = f"{where}, {place}"
             whole = {"format": FORMAT, "version": VERSION, "name": name, **part}
             checked = check_document(whole, place, format=FORMAT, version=VERSION)
-            parts[number] = (place, convert(checked, _Overrides, place))
+            parts[number] = (place, convert(checked, OverridesDocument, place))
     if settings:
         known = ("poses", "conflicts", *Settings.__struct_fields__)
         _refuse_unknown(settings, known, "setting", f"{where}, settings")
@@ -139,18 +222,11 @@ def _own_parts(
         of_poses = {key: settings[key] for key in ("poses", "conflicts") if key in settings}
         whole = {"version": VERSION, "name": name, **of_poses, "settings": rest}
         place = f"{where}, settings"
-        parts[len(overrides)] = (place, convert(whole, _Overrides, place))
+        parts[len(overrides)] = (place, convert(whole, OverridesDocument, place))
     return parts
 
 
-def _with_own(base: BigramSet, part: Part, name: str, content: Mapping[str, Any]) -> BigramSet:
-    if not any(True for _ in _sayings(part[1])):
-        return base
-    data = json.dumps(content, sort_keys=True).encode()
-    return _with_layer(base, part[1], part[0], name, data)
-
-
-def _refuse_twice(parts: Mapping[int, Part], where: str) -> None:
+def _refuse_twice(parts: Mapping[int, _Part], where: str) -> None:
     said: dict[object, tuple[str, str]] = {}
     for place, read in parts.values():
         short = place.removeprefix(f"{where}, ")
@@ -165,7 +241,7 @@ def _refuse_twice(parts: Mapping[int, Part], where: str) -> None:
             said[key] = (what, text)
 
 
-def _sayings(read: _Overrides) -> Iterator[tuple[object, str, str]]:
+def _sayings(read: OverridesDocument) -> Iterator[tuple[object, str, str]]:
     """What overrides say: a key, what it is about, and the value where it is short."""
     for entry in read.bigrams:
         yield entry.pair, f"the bigram {'-'.join(entry.pair)}", ""
@@ -174,43 +250,47 @@ def _sayings(read: _Overrides) -> Iterator[tuple[object, str, str]]:
     for pose, gain in read.gains.items():
         yield ("gain", pose), f"the gain of {pose}", f"{gain:g}"
     for pose, fields in read.poses.items():
-        for field, value in fields.items():
-            yield (pose, field, "pose"), f"{field!r} of the pose {pose}", str(value)
+        for one, value in fields.items():
+            yield (pose, one, "pose"), f"{one!r} of the pose {pose}", str(value)
     for conflict in read.conflicts:
         names = " and ".join(sorted(conflict.poses))
         yield frozenset(conflict.poses), f"the threshold of {names}", f"{conflict.threshold:g}"
-    for field, value in read.settings.items():
-        yield ("setting", field), f"{field!r}", str(value)
+    for one, value in read.settings.items():
+        yield ("setting", one), f"{one!r}", str(value)
 
 
-def _with_layer(
-    base: BigramSet, read: _Overrides, where: str, character: str, data: bytes
-) -> BigramSet:
+def lay_over(base: BigramSet, read: Overrides) -> BigramSet:
+    """Return ``base`` with what one layer changes.
+
+    Raises
+    ------
+    SetError
+        If it names what the set has not.
+    """
     try:
-        classes = load_phone_set(base.phone_set)
-        changed = read_bigrams(read.bigrams, read.boundary, read.name, classes)
-        singles = {label: read_curves(c, f"phone {label!r}") for label, c in read.phones.items()}
         merged = replace(
             base,
             rules=_override_rules(base.rules, read),
-            bigrams={**base.bigrams, **changed},
-            singles={**base.singles, **singles},
-            digest=digest_of(base.digest.encode() + data),
-            layers=(*base.layers, _layer(read, where, character)),
+            bigrams={**base.bigrams, **read.bigrams},
+            singles={**base.singles, **read.singles},
+            digest=digest_of(f"{base.digest} {read.digest}".encode()),
+            layers=(*base.layers, layer_of(read)),
             beneath=base.beneath or base,
         )
         return with_gains(merged, read.gains)
     except InputError as error:
-        raise error.at(where) from None
+        place = error.at(read.where)
+        raise (place.at(read.named_by) if read.named_by else place) from None
 
 
-def _layer(read: _Overrides, where: str, character: str) -> Layer:
+def layer_of(read: Overrides) -> Layer:
+    """Return the record of who said what."""
     return Layer(
         read.name,
-        where,
-        character,
-        frozenset(entry.pair for entry in read.bigrams),
-        frozenset(read.phones),
+        read.where,
+        read.character,
+        frozenset(read.bigrams),
+        frozenset(read.singles),
         read.gains,
         read.poses,
         {frozenset(conflict.poses): conflict.threshold for conflict in read.conflicts},
@@ -218,7 +298,7 @@ def _layer(read: _Overrides, where: str, character: str) -> Layer:
     )
 
 
-def _override_rules(rules: Rules, read: _Overrides) -> Rules:
+def _override_rules(rules: Rules, read: Overrides) -> Rules:
     fields = tuple(field for field in Pose.__struct_fields__ if field != "name")
     for name, changes in read.poses.items():
         _refuse_unknown([name], rules.names, "pose", "")

@@ -7,63 +7,27 @@ shows what was done. Reading refuses what is broken with the place in the file.
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from functools import cache
 from pathlib import Path
 
-import msgspec
-
 from lipwright.curves import Keys
-from lipwright.engines.bigram.model import (
-    Bigram,
-    BigramSet,
-    Curves,
-    Pair,
-    Rules,
-)
+from lipwright.engines.bigram.documents import SET_FORMAT, BigramEntry, KeyList, SetDocument
+from lipwright.engines.bigram.model import Bigram, BigramSet, Curves, Pair
+from lipwright.engines.bigram.set_text import set_bytes as set_bytes
 from lipwright.errors import InputError, SetError, did_you_mean
 from lipwright.files import (
+    Version,
+    check_document,
     convert,
     file_version,
-    format_number,
-    format_row,
-    quote,
+    parse_json,
     read_bytes,
-    read_document,
 )
 from lipwright.phones import PhoneSet, load_phone_set
 
 DATA = Path(__file__).parent.parent.parent / "data" / "sets"
-FORMAT, VERSION = "lipwright/bigram-set", 1
-
-KeyList = list[tuple[float, float]]
-
-
-class _Struct(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    pass
-
-
-class BigramEntry(_Struct, frozen=True):
-    """A bigram as it stands in a file."""
-
-    pair: tuple[str, str]
-    curves: dict[str, KeyList]
-    boundary: float | None = None
-    word: str = ""
-
-
-class _Set(_Struct, frozen=True):
-    version: int
-    name: str
-    bigrams: list[BigramEntry]
-    rules: Rules | None = None
-    base: str = ""
-    about: str = ""
-    phone_set: str = "common"
-    boundary: float = 0.5
-    phones: dict[str, dict[str, KeyList]] = {}
-    reach: dict[str, str] = {}
-    presets: dict[str, Rules] = {}
+FORMAT, VERSION = SET_FORMAT, 1
 
 
 def load_set(name: str) -> BigramSet:
@@ -96,9 +60,45 @@ def read_set(path: str | Path) -> BigramSet:
     return _read_set(Path(path), ())
 
 
+def set_document(data: bytes, where: str) -> SetDocument:
+    """Return what the content of a set's file says, without the set that it builds on.
+
+    Raises
+    ------
+    FileFormatError
+        If it is broken; the message names the place in the file.
+    """
+    document = check_document(parse_json(data, where), where, format=FORMAT, version=VERSION)
+    return convert(document, SetDocument, where)
+
+
+def set_of(document: SetDocument, path: str | Path, data: bytes = b"") -> BigramSet:
+    """Return the set of a document that lies, or is to lie, at a path."""
+    return _made(document, Path(path), (), None, data)
+
+
+def base_of(document: SetDocument, path: str | Path) -> BigramSet | None:
+    """Return the set that a file builds on; None where it builds on none."""
+    if not document.base:
+        return None
+    own = document.phone_set.endswith(".json")
+    phone_set = str(Path(path).parent / document.phone_set) if own else document.phone_set
+    return _base(document, Path(path), (), load_phone_set(phone_set))
+
+
 def _read_set(path: Path, above: tuple[Path, ...]) -> BigramSet:
-    where, version = str(path), file_version(path)
-    read = convert(read_document(path, format=FORMAT, version=VERSION), _Set, where)
+    version, data = file_version(path), read_bytes(path)
+    return _made(set_document(data, str(path)), path, above, version, data)
+
+
+def _made(
+    read: SetDocument,
+    path: Path,
+    above: tuple[Path, ...],
+    version: Version | None,
+    data: bytes,
+) -> BigramSet:
+    where = str(path)
     try:
         # A user's own phone set is a file beside the set.
         own = read.phone_set.endswith(".json")
@@ -120,14 +120,14 @@ def _read_set(path: Path, above: tuple[Path, ...]) -> BigramSet:
             {**base.reach, **read.reach},
             {**base.presets, **read.presets},
             read.about,
-            digest_of(base.digest.encode() + read_bytes(path)),
+            digest_of(base.digest.encode() + data),
             files=(*base.files, *([(phone_set, phones_version)] if own else []), (where, version)),
         )
     except InputError as error:
         raise error.at(where) from None
 
 
-def _base(read: _Set, path: Path, above: tuple[Path, ...], classes: PhoneSet) -> BigramSet:
+def _base(read: SetDocument, path: Path, above: tuple[Path, ...], classes: PhoneSet) -> BigramSet:
     """Return the set that a file builds on: the file names only what it adds or changes."""
     if not read.base:
         if read.rules is None:
@@ -203,122 +203,3 @@ def read_bigrams(
         at = boundary if entry.boundary is None else entry.boundary
         bigrams[entry.pair] = Bigram(entry.pair, curves, at, entry.word, source)
     return bigrams
-
-
-def set_bytes(of: BigramSet, boundary: float = 0.5, base: BigramSet | None = None) -> bytes:
-    """Return the content of a set's file: stable order, one key list per line.
-
-    Parameters
-    ----------
-    of : BigramSet
-    boundary : float
-        Of bigrams that do not say their own.
-    base : BigramSet, optional
-        A set that comes with Lipwright: only pairs and phones that it lacks are written.
-    """
-    if base is not None:
-        return _lines_bytes(
-            [
-                *_head(of, boundary),
-                f'  "base": {quote(base.name)},',
-                *_phones_text({n: c for n, c in of.singles.items() if n not in base.singles}),
-                *_bigrams_text(
-                    [b for p, b in of.bigrams.items() if p not in base.bigrams], boundary
-                ),
-            ]
-        )
-    return _lines_bytes(
-        [
-            *_head(of, boundary),
-            f'  "reach": {_flat({k: quote(v) for k, v in of.reach.items()})},',
-            f'  "rules": {_rules_text(of.rules, "  ")},',
-            '  "presets": {',
-            *_joined(f"    {quote(n)}: {_rules_text(r, '    ')}" for n, r in of.presets.items()),
-            "  },",
-            *_phones_text(of.singles),
-            *_bigrams_text(of.bigrams.values(), boundary),
-        ]
-    )
-
-
-def _head(of: BigramSet, boundary: float) -> list[str]:
-    return [
-        f'  "format": {quote(FORMAT)},',
-        f'  "version": {VERSION},',
-        f'  "name": {quote(of.name)},',
-        f'  "about": {quote(of.about)},',
-        f'  "phone_set": {quote(of.phone_set)},',
-        f'  "boundary": {format_number(boundary)},',
-    ]
-
-
-def _phones_text(singles: Mapping[str, Curves]) -> list[str]:
-    rows = _joined(f"    {quote(n)}: {_curves_text(c, '    ')}" for n, c in singles.items())
-    return ['  "phones": {', *rows, "  },"]
-
-
-def _bigrams_text(bigrams: Iterable[Bigram], boundary: float) -> list[str]:
-    return ['  "bigrams": [', *_joined(_bigram_text(b, boundary) for b in bigrams), "  ]"]
-
-
-def _lines_bytes(lines: list[str]) -> bytes:
-    return ("\n".join(["{", *lines, "}"]) + "\n").encode()
-
-
-def _joined(rows: Iterable[str]) -> list[str]:
-    listed = list(rows)
-    return [row + "," for row in listed[:-1]] + listed[-1:]
-
-
-def _flat(fields: Mapping[str, str]) -> str:
-    return "{" + ", ".join(f"{quote(name)}: {value}" for name, value in fields.items()) + "}"
-
-
-def _value(value: float | str) -> str:
-    return quote(value) if isinstance(value, str) else format_number(value)
-
-
-def _rules_text(rules: Rules, indent: str) -> str:
-    poses = (
-        f"{indent}    "
-        + _flat({field: _value(value) for field, value in msgspec.structs.asdict(pose).items()})
-        for pose in rules.poses
-    )
-    conflicts = (
-        f'{indent}    {{"poses": [{quote(c.poses[0])}, {quote(c.poses[1])}], '
-        f'"threshold": {format_number(c.threshold)}}}'
-        for c in rules.conflicts
-    )
-    settings = {n: _value(v) for n, v in msgspec.structs.asdict(rules.settings).items()}
-    return "\n".join(
-        [
-            "{",
-            f'{indent}  "poses": [',
-            *_joined(poses),
-            f"{indent}  ],",
-            f'{indent}  "conflicts": [',
-            *_joined(conflicts),
-            f"{indent}  ],",
-            f'{indent}  "settings": {_flat(settings)}',
-            f"{indent}}}",
-        ]
-    )
-
-
-def _curves_text(curves: Curves, indent: str) -> str:
-    if not curves:
-        return "{}"
-    rows = (
-        f"{indent}  {quote(pose)}: [" + ", ".join(format_row(pair) for pair in keys.pairs()) + "]"
-        for pose, keys in curves.items()
-    )
-    return "\n".join(["{", *_joined(rows), f"{indent}}}"])
-
-
-def _bigram_text(bigram: Bigram, boundary: float) -> str:
-    head = f'    {{"pair": [{quote(bigram.pair[0])}, {quote(bigram.pair[1])}], '
-    if bigram.word:
-        head += f'"word": {quote(bigram.word)}, '
-    if bigram.boundary != boundary:
-        head += f'"boundary": {format_number(bigram.boundary)}, '
-    return head + f'"curves": {_curves_text(bigram.curves, "    ")}}}'

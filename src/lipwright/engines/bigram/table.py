@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from lipwright.engines.bigram.model import Bigram, BigramSet, Pair
 from lipwright.engines.bigram.polyline import Floats, Ints
 from lipwright.engines.bigram.preparation import Spans
-from lipwright.engines.bigram.stand_in import stand_in
+from lipwright.engines.bigram.stand_in import STAND_IN, stand_in
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -64,9 +64,30 @@ class Table:
             self.bigrams.append(bigram)
             self._rows.append(self._keys(bigram))
         if new:
+            self._gather()
+        return np.array([known[pair] for pair in pairs], dtype=np.int64)
+
+    def for_set(self, of: BigramSet, order: tuple[str, ...]) -> Table:
+        """Return a table of another set that keeps the rows of bigrams that both share."""
+        table = Table(of, order)
+        if order != self.order:
+            return table
+        for pair, number in self.index.items():
+            known = self.bigrams[number]
+            same = known is of.bigrams.get(pair)
+            if not same and pair not in of.bigrams:
+                same = known.source == STAND_IN and of.singles is self.of.singles
+            if same:
+                table.index[pair] = len(table.bigrams)
+                table.bigrams.append(known)
+                table._rows.append(self._rows[number])
+        table._gather()
+        return table
+
+    def _gather(self) -> None:
+        if self._rows:
             self._flat = np.concatenate(self._rows)
             self._first = np.concatenate(([0], np.cumsum([len(rows) for rows in self._rows])))
-        return np.array([known[pair] for pair in pairs], dtype=np.int64)
 
     def _keys(self, bigram: Bigram) -> np.ndarray:
         """Rows of (pose, share of the first phone, share of the second, weight)."""
