@@ -36,7 +36,7 @@ class Tab:
 
     def pose(self, name: str) -> None:
         """Choose a pose of the pair."""
-        self.page.get_by_role("button", name=name, exact=True).first.click()
+        self.page.get_by_title(f"Edit {name}", exact=True).click()
         self.settle()
 
     def say(self, text: str) -> None:
