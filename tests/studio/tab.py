@@ -28,15 +28,21 @@ class Tab:
         """Wait until nothing is on its way and what came is drawn."""
         self.ask("studio.idle()")
 
+    def until(self, condition: str, given: Any = None) -> None:
+        """Wait until a JavaScript function of ``given`` is true."""
+        self.page.wait_for_function(condition, arg=given)
+
     def pair(self, first: str, second: str) -> None:
         """Choose a pair in the matrix."""
         self.page.locator("#tab-pairs").click()
         self.page.locator(f".cell[data-first={first}][data-second={second}]").click()
+        self.until("pair => `${studio.editor().pair}` === `${pair}`", [first, second])
         self.settle()
 
     def pose(self, name: str) -> None:
         """Choose a pose of the pair."""
         self.page.get_by_title(f"Edit {name}", exact=True).click()
+        self.until("name => studio.editor().pose === name", name)
         self.settle()
 
     def say(self, text: str) -> None:
@@ -54,6 +60,15 @@ class Tab:
         """The keys of a pose, as the editor has them."""
         keys: list[list[float]] = self.ask("studio.editor()")["curves"][pose]
         return keys
+
+    def is_curve(self, pose: str, keys: list[list[float]], *, same: bool = True) -> None:
+        """Wait until a pose's keys are these, or others."""
+        sign = "===" if same else "!=="
+        self.until(
+            f"([pose, keys]) => JSON.stringify(studio.editor().curves[pose]) {sign} "
+            "JSON.stringify(keys)",
+            [pose, keys],
+        )
 
     def drag(self, place: dict[str, float], right: float, down: float) -> None:
         """Drag from a place on the page, in pixels, in a few moves."""
