@@ -218,6 +218,14 @@ def test_every_kind_of_second_version_moves(desk: Path) -> None:
     assert len(set(values)) == len(values)
 
 
+def test_the_net_that_comes_with_lipwright_is_a_second_version(desk: Path) -> None:
+    session = opened("english", "low.json", "low.wav")
+    studio, watcher = talk(session)
+    sent = ask(studio, watcher, Watch(line="1", other=Variant("engine", "neural")))
+    (other,) = (one for one in sent if isinstance(one, MotionView) and one.version == "b")
+    assert any("is it speech?" in note for note in other.notes)  # the line's sound is a tone
+
+
 @pytest.mark.parametrize(
     "other",
     [

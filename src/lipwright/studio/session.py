@@ -319,7 +319,7 @@ class Session:
     @property
     def engines(self) -> tuple[str, ...]:
         """The engines that a line can be held beside."""
-        return ("bigram", "motion", *(["neural"] if self.given.model else []))
+        return ("bigram", "motion", "neural")
 
     @property
     def models(self) -> tuple[str, ...]:
