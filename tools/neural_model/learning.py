@@ -94,7 +94,8 @@ def learn(lessons: Lessons, shape: Shape, *, steps: int, seed: int) -> Net:
         mean += 0.01 * (float(loss.detach()) - mean)
         if step % 100 == 0:
             print(f"  step {step} of {steps}: {mean:.4f}", file=sys.stderr, flush=True)
-    return net.eval()
+    net.eval()
+    return net
 
 
 def stretches(
