@@ -32,7 +32,7 @@ from lipwright import pipeline
 from lipwright.animation import Animation
 from lipwright.character.between import with_betweens
 from lipwright.character.head import measure
-from lipwright.engines.neural import Stream, load_model
+from lipwright.engines.neural import Stream
 from lipwright.engines.neural.built_in import live_model
 from lipwright.engines.neural.engine import NeuralEngine
 from lipwright.engines.neural.lessons import Lesson
@@ -192,8 +192,7 @@ def by_ear(speech: Speech) -> Animation:
 
 def confidence(name: str, lines: Sequence[Line]) -> dict[str, Any]:
     """Is the opening farther off where the net says so? Thirds of all frames by doubt."""
-    model = load_model(name)
-    assert isinstance(model, LiveModel)
+    model = live_model(name)
     doubts, off = [], []
     made = [pipeline.animate(line.alone, engine="neural", model=name).animation for line in lines]
     mouths = [opening(one) for one in made]
@@ -263,7 +262,7 @@ def mandarin() -> None:
         takes = Path(folder)
         stretches = [read(takes, name) for name in cut(takes)]
     for name in ("whole", "live"):
-        engine = NeuralEngine(load_model(name))
+        engine = NeuralEngine(live_model(name))
         for what, some in (
             ("syllables and words", [one for one in stretches if "_3_" not in one.name]),
             ("running speech", [one for one in stretches if "_3_" in one.name]),
@@ -281,7 +280,7 @@ def at_rest() -> None:
         "music": spoil.music,
     }
     for name in ("whole", "live"):
-        model, found = live(name), {}
+        model, found = live_model(name), {}
         for noise, make in noises.items():
             moved = []
             for seed in range(12):
@@ -293,19 +292,12 @@ def at_rest() -> None:
         say(f"mean activity without speech, mean and worst of 12: {name}", **found)
 
 
-def live(name: str) -> LiveModel:
-    """A model that comes with Lipwright."""
-    model = load_model(name)
-    assert isinstance(model, LiveModel)
-    return model
-
-
 def speed() -> None:
     """Print latency, time per frame, share of real time, and memory over an hour."""
     rng = np.random.default_rng(0)
     minute = rng.normal(0, 0.05, 60 * RATE).astype(np.float32)
     for name in ("whole", "live"):
-        model, times = live(name), []
+        model, times = live_model(name), []
         for _ in range(7):
             before = time.perf_counter()
             hear_all(minute, RATE, model)

@@ -178,16 +178,16 @@ def test_auto_asks_the_recogniser_where_the_net_is_unsure(
 
     assert line.sound is not None
     alone = pipeline.sound_alone(line.sound)
-    assert choose_engine(alone)[0] == "neural"
+    assert choose_engine(alone).engine == "neural"
     monkeypatch.setattr(hearing, "DOUBTED", 1.1)
     monkeypatch.setattr(hearing, "SURE", 0.0)
-    engine, speech, why = choose_engine(alone)
-    assert (engine, len(speech.words) > 2) == ("bigram", True)
-    assert "the net is not sure" in why
+    found = choose_engine(alone)
+    assert (found.engine, len(found.speech.words) > 2) == ("bigram", True)
+    assert "the net is not sure" in found.why
     monkeypatch.setattr(hearing, "SURE", 1.1)
-    engine, speech, why = choose_engine(alone)
-    assert (engine, len(speech.words)) == ("neural", 0)
-    assert "no words are recognised either" in why
+    found = choose_engine(alone)
+    assert (found.engine, len(found.speech.words)) == ("neural", 0)
+    assert "no words are recognised either" in found.why
 
 
 # ---- what a speaker teaches -------------------------------------------------------------------

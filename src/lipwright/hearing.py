@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 from lipwright.acting import Acted
 from lipwright.animation import Animation
 from lipwright.curves import reduced
-from lipwright.errors import SoundError
+from lipwright.errors import LipwrightError, SoundError
 from lipwright.files import Kept, Version, file_version
 from lipwright.phones import PhoneTrack
 from lipwright.sound import Sound
@@ -122,54 +122,70 @@ def _note(report: dict[str, Any]) -> str:
     return f"the net is unsure at {places}{more}: look there first"
 
 
-def choose_engine(speech: Speech, model: str | Path | None = None) -> tuple[str, Speech, str]:
-    """Return the engine that suits a line, the line as that engine needs it, and why.
+@dataclass(frozen=True, slots=True, eq=False)
+class Choice:
+    """An engine that was chosen for a line.
+
+    Parameters
+    ----------
+    engine : str
+    speech : Speech
+        The line as that engine needs it.
+    why : str
+    acted : Acted, optional
+        What the net made of it, where the net was chosen.
+    """
+
+    engine: str
+    speech: Speech
+    why: str
+    acted: Acted | None = None
+
+
+def choose_engine(speech: Speech, rate: float = 60.0, model: str | Path | None = None) -> Choice:
+    """Choose the engine that suits a line.
 
     Known phones go to the bigram engine: they say when each closure is. Sound alone goes to
-    the net, which is as close to a face as recognised words are (``bench.neural``), in any
-    language and a hundred times as fast; but where the net doubts its own answer, the
-    recogniser is asked, and taken if it is surer.
+    the net, which is as close to a face as phones by ear are (``bench.neural_live``), in any
+    language and faster; but where the net doubts its own answer, the recogniser is asked, and
+    taken if it is surer.
 
     Parameters
     ----------
     speech : Speech
         :func:`sound_alone`, or with phones.
+    rate : float
+        Frames per second.
     model : str or path, optional
         For the net.
     """
     if len(speech.phones):
-        return "bigram", speech, "the bigram engine: the phones are known"
-    made = neural_engine(model).animate(speech)
-    sure = made.report.get("confidence", 1.0)
+        return Choice("bigram", speech, "the bigram engine: the phones are known")
+    acted = act_by_ear(speech, rate, model)
+    sure = acted.animation.report.get("confidence", 1.0)
     if sure >= DOUBTED:
-        return (
-            "neural",
-            speech,
-            f"the neural engine: no words are known, and it is sure ({sure:.2f})",
-        )
-    from lipwright.errors import LipwrightError
+        why = f"the neural engine: no words are known, and it is sure ({sure:.2f})"
+        return Choice("neural", speech, why, acted)
+    words = _recognised(speech)
+    if words is None or (words.confidence or 0.0) < SURE:
+        why = f"the neural engine: it is not sure ({sure:.2f}), but no words are recognised either"
+        return Choice("neural", speech, why, acted)
+    why = (
+        f"the bigram engine: the net is not sure ({sure:.2f}), the recognised words are"
+        f" ({words.confidence:.2f})"
+    )
+    return Choice("bigram", replace(words, notes=(*speech.notes, *words.notes)), why)
+
+
+def _recognised(speech: Speech) -> Speech | None:
+    """Return a line with the words that are recognised in it; None where there are none."""
     from lipwright.schedule.recognise import recognise
 
     assert speech.sound is not None
     try:
-        words = recognise(speech.sound)
+        return recognise(speech.sound)
     except LipwrightError:
-        words = None
-    if words is None or (words.confidence or 0.0) < SURE:
-        return (
-            "neural",
-            speech,
-            (f"the neural engine: it is not sure ({sure:.2f}), but no words are recognised either"),
-        )
-    known = replace(words, notes=(*speech.notes, *words.notes))
-    return (
-        "bigram",
-        known,
-        (
-            f"the bigram engine: the net is not sure ({sure:.2f}), the recognised words are"
-            f" ({words.confidence:.2f})"
-        ),
-    )
+        return None
 
 
 def _playable(animation: Animation) -> Animation:

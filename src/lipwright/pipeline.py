@@ -247,9 +247,9 @@ def animate(
 
     of_bigrams = (overrides, reduction, edits, bigram_set if engine == "neural" else None)
     check_engine(engine, database, of_bigrams, model, (controls, markers))
-    chosen = ""
-    if engine == "auto":
-        engine, speech, chosen = choose_engine(speech, model)
+    chosen = choose_engine(speech, rate, model) if engine == "auto" else None
+    if chosen:
+        engine, speech = chosen.engine, chosen.speech
     shapes = choose(character, pictures, mapping, without=without, fps=fps, on=on, hold=hold)
     own: str | None = ""
     if engine == "motion":
@@ -257,7 +257,8 @@ def animate(
         how = Acting(character, mapping, controls, bigram_set, markers)
         acted = act(mover.animate(speech, rate), speech, mover.database, how)
     elif engine == "neural":
-        acted, own = act_by_ear(speech, rate, model), None
+        heard = chosen.acted if chosen else None
+        acted, own = heard or act_by_ear(speech, rate, model), None
     else:
         made = engine_for(bigram_set, preset, overrides, reduction, character, speech.language)
         own = made.of.name
@@ -268,7 +269,7 @@ def animate(
         shapes.check_controls(animation.controls)
         return Performance(animation, speech, shapes.no_model, cues, flat=True)
     actor = keep_character(character, mapping)
-    notes = [*speech.notes, *filter(None, [chosen, acted.note])]
+    notes = [*speech.notes, *filter(None, [chosen.why if chosen else "", acted.note])]
     if acted.rig is None and (not actor.fits or actor.bigram_set != own):
         notes += filter(None, [_check(actor, animation.controls)])
     named = replace(animation, report={**animation.report, "character": actor.report()})

@@ -103,7 +103,7 @@ class Stream:
 
     @property
     def latency(self) -> float:
-        """Seconds between an instant and its frame, the time from frame to frame included."""
+        """Seconds from an instant to its frame, that from frame to frame included, at 16 kHz."""
         return self.model.latency + FRAME
 
     def push(self, piece: ArrayLike) -> Frames:
