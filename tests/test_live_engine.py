@@ -159,6 +159,16 @@ def test_a_listener_waits_no_more_than_40_ms() -> None:
     assert model.latency <= 0.3
 
 
+@pytest.mark.parametrize("model", MODELS)
+def test_info_of_what_comes_with_lipwright(model: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["neural", "info", model]) == 0
+    told = capsys.readouterr().out
+    assert "from 8800 sounds, each spoilt 2 times; it comes with Lipwright" in told
+    assert ("95 ms after it" in told) == (model == WHOLE)
+    assert main(["neural", "info", model, "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["seed"] == 1
+
+
 # ---- which engine ---------------------------------------------------------------------------
 
 

@@ -104,10 +104,12 @@ def _tell(model: Model | LiveModel, path: str, as_json: bool) -> None:
     )
     click.echo(f"  gives   {', '.join(model.controls)}")
     click.echo(f"  hears   {facts['hears']}")
-    click.echo(
-        f"  learnt  {about['seconds']:g} s from {_many(about['sounds'], 'sound')}; "
-        f"off by {about['error']:.3f} on them (root mean square)"
-    )
+    how = f"{about['seconds']:g} s from {_many(about['sounds'], 'sound')}"
+    if "error" in about:
+        how += f"; off by {about['error']:.3f} on them (root mean square)"
+    else:
+        how += f", each spoilt {about.get('times', 1)} times; it comes with Lipwright"
+    click.echo(f"  learnt  {how}")
     for text in about["notes"]:
         note(text)
 

@@ -59,6 +59,7 @@ BROKEN: dict[str, tuple[Callable[[dict[str, Any]], None], str]] = {
     "instants to come": (lambda d: change(d, "instants", to=[0, 2]), "the instants [0, 2]"),
     "bands long ago": (lambda d: change(d, "bands", to=[-500, 0]), "the bands [-500, 0]"),
     "no layers": (lambda d: change(d, "layers", to=[]), "no layers"),
+    "nothing said of its training": (lambda d: d["about"].pop("seconds"), "seconds"),
     "a dilation of 0": (lambda d: change(d, "blocks", 1, "dilation", to=0), "dilation"),
     "a closing of nothing": (
         lambda d: change(d, "closing", "control", to="lips"),

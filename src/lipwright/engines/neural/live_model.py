@@ -95,7 +95,9 @@ class LiveModel:
     closing : Closing, optional
         What follows from that.
     about : dict
-        What it was trained on, how, and how well that went.
+        What it was trained on: ``seconds``, ``sounds`` and ``notes``; of one that was taught
+        also ``error`` and ``constant`` (:func:`~lipwright.engines.neural.teaching.teach`), of
+        one that comes with Lipwright ``times``, ``steps`` and ``seed``.
     """
 
     controls: tuple[str, ...]
@@ -285,7 +287,7 @@ def read_live_model(path: str | Path) -> LiveModel:
         _layer(read.doubt, f"{where}, at doubt", 1, units),
         closed,
         read.closing,
-        read.about,
+        msgspec.to_builtins(read.about),
     )
 
 
@@ -303,6 +305,17 @@ class _Block(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     back: _Written
 
 
+class _About(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    seconds: float
+    sounds: int
+    error: float | msgspec.UnsetType = msgspec.UNSET
+    constant: list[str] | msgspec.UnsetType = msgspec.UNSET
+    times: int | msgspec.UnsetType = msgspec.UNSET
+    steps: int | msgspec.UnsetType = msgspec.UNSET
+    seed: int | msgspec.UnsetType = msgspec.UNSET
+    notes: list[str] = []
+
+
 class _Document(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     version: int
     controls: list[str]
@@ -314,7 +327,7 @@ class _Document(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     bands: list[int]
     logistic: bool
     closing: Closing | None
-    about: dict[str, Any]
+    about: _About
     first: _Written
     blocks: list[_Block]
     layers: list[_Written]
