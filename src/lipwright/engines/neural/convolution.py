@@ -26,8 +26,10 @@ WEIGHT_STEP = 2.0**-12
 STEP = 2.0**-10
 MOST = 63.0
 """What a unit passes on lies within ± this; wider nets are refused by :data:`WIDEST`."""
+GREATEST = 128.0
+"""A weight lies within ± this."""
 WIDEST = 4096
-"""Inputs to a unit: 2^12 products of 15 and 16 bits are sums of 43 bits; a double has 53."""
+"""Inputs to a unit: 2^12 products of 19 and 16 bits are sums of 47 bits; a double has 53."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)

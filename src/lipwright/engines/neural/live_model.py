@@ -2,15 +2,13 @@
 
 It answers fifty times a second: frame ``j`` is the instant ``0.02 j`` s, for which it hears
 what was said before and :attr:`LiveModel.latency` more. The file is JSON,
-``"format": "lipwright/live-model"``; each layer is a line of base64, for nobody edits weights:
-whole numbers of 16 or 32 bits, little endian, in units of 2⁻¹². A file that is cut short, of
-another version, or whose parts do not fit each other is refused.
+``"format": "lipwright/live-model"``; a layer is a line
+(:mod:`~lipwright.engines.neural.layer_file`). A file that is cut short, of another version, or
+whose parts do not fit each other is refused.
 """
 
 from __future__ import annotations
 
-import base64
-import binascii
 import json
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -22,17 +20,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lipwright.engines.neural import mel
-from lipwright.engines.neural.convolution import (
-    WEIGHT_STEP,
-    WIDEST,
-    Affine,
-    Block,
-    Convolutions,
-    applied,
-    on_grid,
-)
+from lipwright.engines.neural.convolution import Affine, Block, Convolutions, applied, on_grid
+from lipwright.engines.neural.layer_file import WrittenLayer, read_layer, unfit, written
 from lipwright.engines.neural.network import logistic
-from lipwright.errors import FileFormatError
 from lipwright.files import convert, quote, read_document, write_atomically
 
 FORMAT, VERSION = "lipwright/live-model", 1
@@ -41,8 +31,6 @@ FRAME = 0.02
 STACKED = 4
 """Mel frames that the first layer hears at once; the newest two are new."""
 MOST_AHEAD = 100
-GREATEST = 128.0
-"""A weight lies within ± this, so that sums stay exact."""
 Floats = NDArray[np.float64]
 
 
@@ -209,17 +197,17 @@ class LiveModel:
             f'"{name}": {json.dumps(value, ensure_ascii=False, allow_nan=False)}'
             for name, value in named
         ]
-        rows.append(f'"first": {_written(self.net.first)}')
+        rows.append(f'"first": {written(self.net.first)}')
         blocks = ",\n  ".join(
-            f'{{"dilation": {block.dilation}, "taps": {_written(block.taps)},\n'
-            f'   "back": {_written(block.back)}}}'
+            f'{{"dilation": {block.dilation}, "taps": {written(block.taps)},\n'
+            f'   "back": {written(block.back)}}}'
             for block in self.net.blocks
         )
         rows.append(f'"blocks": [\n  {blocks}\n ]')
-        layers = ",\n  ".join(map(_written, self.layers))
+        layers = ",\n  ".join(map(written, self.layers))
         rows.append(f'"layers": [\n  {layers}\n ]')
-        rows.append(f'"doubt": {_written(self.doubt)}')
-        rows.append(f'"closed": {_written(self.closed) if self.closed else "null"}')
+        rows.append(f'"doubt": {written(self.doubt)}')
+        rows.append(f'"closed": {written(self.closed) if self.closed else "null"}')
         return ("{\n " + ",\n ".join(rows) + "\n}\n").encode()
 
     def save(self, path: str | Path) -> None:
@@ -259,20 +247,20 @@ def read_live_model(path: str | Path) -> LiveModel:
     blocks = tuple(
         Block(
             block.dilation,
-            _layer(block.taps, f"{where}, block {number}", units, 3 * units),
-            _layer(block.back, f"{where}, block {number}", units, units),
+            read_layer(block.taps, f"{where}, block {number}", units, 3 * units),
+            read_layer(block.back, f"{where}, block {number}", units, units),
         )
         for number, block in enumerate(read.blocks, 1)
     )
-    net = Convolutions(_layer(read.first, where, units, STACKED * mel.BANDS), blocks)
+    net = Convolutions(read_layer(read.first, where, units, STACKED * mel.BANDS), blocks)
     _check(read, where)
     layers, width = [], len(read.instants) * units + len(read.bands) * mel.BANDS
     for number, layer in enumerate(read.layers, 1):
-        layers.append(_layer(layer, f"{where}, layer {number}", layer.units, width))
+        layers.append(read_layer(layer, f"{where}, layer {number}", layer.units, width))
         width = layer.units
     if width != len(read.controls):
-        raise _unfit(f"{width} outputs", where, f"{len(read.controls)}")
-    closed = _layer(read.closed, f"{where}, at closed", 1, units) if read.closed else None
+        raise unfit(f"{width} outputs", where, f"{len(read.controls)}")
+    closed = read_layer(read.closed, f"{where}, at closed", 1, units) if read.closed else None
     return LiveModel(
         tuple(read.controls),
         np.array(read.low, np.float64),
@@ -284,25 +272,17 @@ def read_live_model(path: str | Path) -> LiveModel:
         tuple(read.bands),
         tuple(layers),
         read.logistic,
-        _layer(read.doubt, f"{where}, at doubt", 1, units),
+        read_layer(read.doubt, f"{where}, at doubt", 1, units),
         closed,
         read.closing,
         msgspec.to_builtins(read.about),
     )
 
 
-class _Written(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    inputs: int
-    units: int
-    bits: int
-    weights: str
-    bias: str
-
-
 class _Block(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     dilation: int
-    taps: _Written
-    back: _Written
+    taps: WrittenLayer
+    back: WrittenLayer
 
 
 class _About(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
@@ -328,77 +308,35 @@ class _Document(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     logistic: bool
     closing: Closing | None
     about: _About
-    first: _Written
+    first: WrittenLayer
     blocks: list[_Block]
-    layers: list[_Written]
-    doubt: _Written
-    closed: _Written | None
+    layers: list[WrittenLayer]
+    doubt: WrittenLayer
+    closed: WrittenLayer | None
 
 
 def _check(read: _Document, where: str) -> None:
     """Refuse parts that do not fit each other."""
     count = len(read.controls)
     if not count or len(set(read.controls)) != count:
-        raise _unfit("controls of the same name, or none", where, "names that differ")
+        raise unfit("controls of the same name, or none", where, "names that differ")
     if len(read.low) != count or len(read.high) != count:
-        raise _unfit("another number of ranges than of controls", where, f"{count}")
+        raise unfit("another number of ranges than of controls", where, f"{count}")
     if (np.array(read.low) > np.array(read.high)).any():
-        raise _unfit("a range that is none", where, "low below high")
+        raise unfit("a range that is none", where, "low below high")
     if not 0 <= read.ahead <= MOST_AHEAD:
-        raise _unfit(f"{read.ahead} frames ahead", where, f"0 to {MOST_AHEAD}")
+        raise unfit(f"{read.ahead} frames ahead", where, f"0 to {MOST_AHEAD}")
     for name, instants in (("instants", read.instants), ("bands", read.bands)):
         rising = sorted(set(instants)) == instants
         if not rising or any(not -MOST_AHEAD <= back <= 0 for back in instants):
-            raise _unfit(f"the {name} {instants}", where, f"rising, from {-MOST_AHEAD} to 0")
+            raise unfit(f"the {name} {instants}", where, f"rising, from {-MOST_AHEAD} to 0")
     if not read.layers:
-        raise _unfit("no layers", where, "one or more")
+        raise unfit("no layers", where, "one or more")
     if any(not 1 <= block.dilation <= 4096 for block in read.blocks):
-        raise _unfit("a dilation that cannot be", where, "1 to 4096 frames")
+        raise unfit("a dilation that cannot be", where, "1 to 4096 frames")
     closing = read.closing
     if closing is None:
         return
     named = {closing.control, *closing.leaves}
     if not named <= set(read.controls) or not 0 <= closing.doubted < closing.sure <= 1:
-        raise _unfit("a closing that does not fit the controls", where, "names of controls")
-
-
-def _written(layer: Affine) -> str:
-    parts = [np.rint(part / WEIGHT_STEP) for part in (layer.weights, layer.bias)]
-    bits = 16 if max(np.abs(part).max(initial=0.0) for part in parts) < 2**15 else 32
-    weights, bias = (
-        base64.b64encode(part.astype(f"<i{bits // 8}").tobytes()).decode() for part in parts
-    )
-    count, units = layer.weights.shape
-    return (
-        f'{{"inputs": {count}, "units": {units}, "bits": {bits},'
-        f' "weights": "{weights}", "bias": "{bias}"}}'
-    )
-
-
-def _layer(read: _Written, where: str, units: int, inputs: int) -> Affine:
-    """Return a layer, which must have so many units and inputs."""
-    if (read.inputs, read.units) != (inputs, units) or not 1 <= inputs <= WIDEST or units < 1:
-        raise _unfit(f"{read.inputs} x {read.units} weights", where, f"{inputs} x {units}")
-    if read.bits not in (16, 32):
-        raise _unfit(f"weights of {read.bits} bits", where, "16 or 32")
-    weights = _numbers(read.weights, read.bits, inputs * units, where)
-    bias = _numbers(read.bias, read.bits, units, where)
-    return Affine(weights.reshape(inputs, units), bias)
-
-
-def _numbers(text: str, bits: int, count: int, where: str) -> Floats:
-    try:
-        data = base64.b64decode(text, validate=True)
-    except (binascii.Error, ValueError):
-        raise _unfit("weights that are no base64", where, "a trained net") from None
-    if len(data) * 8 != count * bits:
-        raise _unfit(f"{len(data)} bytes of weights", where, f"{count * bits // 8}")
-    values = np.frombuffer(data, f"<i{bits // 8}").astype(np.float64) * WEIGHT_STEP
-    if np.abs(values).max(initial=0.0) > GREATEST:
-        raise _unfit("weights beyond what sums can hold", where, f"within ± {GREATEST:g}")
-    return values
-
-
-def _unfit(found: str, where: str, expected: str) -> FileFormatError:
-    cure = "the model is damaged: train it again"
-    return FileFormatError(found, where=where, expected=expected, cure=cure)
+        raise unfit("a closing that does not fit the controls", where, "names of controls")

@@ -18,8 +18,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lipwright.engines.neural.features import Hearing
+from lipwright.engines.neural.layer_file import unfit
 from lipwright.engines.neural.network import Layer, Network
-from lipwright.errors import FileFormatError
 from lipwright.files import (
     convert,
     quote,
@@ -165,31 +165,26 @@ def _check(read: _Document, network: Network, where: str) -> None:
     for number, layer in enumerate(network.layers, 1):
         wanted = (width, len(layer.bias))
         if layer.weights.shape != wanted:
-            raise _unfit(
+            raise unfit(
                 f"{' x '.join(map(str, layer.weights.shape))} weights",
                 f"{where}, layer {number}",
                 f"{wanted[0]} x {wanted[1]}",
             )
         width = len(layer.bias)
     if not network.layers:
-        raise _unfit("no layers", where, "one or more")
+        raise unfit("no layers", where, "one or more")
     counts = {"mean": read.hearing.inputs, "deviation": read.hearing.inputs}
     counts |= dict.fromkeys(("low", "high", "controls"), width)
     for name, count in counts.items():
         if len(getattr(read, name)) != count:
-            raise _unfit(f"{len(getattr(read, name))} numbers", f"{where}, at {name}", f"{count}")
+            raise unfit(f"{len(getattr(read, name))} numbers", f"{where}, at {name}", f"{count}")
     if len(set(read.controls)) != width or not width:
-        raise _unfit("controls of the same name, or none", where, "names that differ")
+        raise unfit("controls of the same name, or none", where, "names that differ")
     if not (network.deviation > 0).all() or (_vector(read.low) > _vector(read.high)).any():
-        raise _unfit("a deviation of 0, or a range that is none", where, "a trained net")
+        raise unfit("a deviation of 0, or a range that is none", where, "a trained net")
     arrays = [network.mean, *(a for layer in network.layers for a in (layer.weights, layer.bias))]
     if not all(np.isfinite(array).all() for array in arrays):
-        raise _unfit("numbers beyond what a weight can be", where, "finite weights")
-
-
-def _unfit(found: str, where: str, expected: str) -> FileFormatError:
-    cure = "the model is damaged: train it again"
-    return FileFormatError(found, where=where, expected=expected, cure=cure)
+        raise unfit("numbers beyond what a weight can be", where, "finite weights")
 
 
 def _vector(values: list[float]) -> Singles:
@@ -199,7 +194,7 @@ def _vector(values: list[float]) -> Singles:
 
 def _matrix(rows: list[list[float]], where: str, number: int) -> Singles:
     if len({len(row) for row in rows}) > 1:
-        raise _unfit("rows of different lengths", f"{where}, layer {number}", "a matrix")
+        raise unfit("rows of different lengths", f"{where}, layer {number}", "a matrix")
     with np.errstate(over="ignore"):
         return np.array(rows, np.float64).reshape(len(rows), -1).astype(np.float32)
 

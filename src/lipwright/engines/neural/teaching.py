@@ -14,7 +14,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from lipwright.engines.neural.convolution import WEIGHT_STEP, Affine
+from lipwright.engines.neural.convolution import GREATEST, WEIGHT_STEP, Affine
 from lipwright.engines.neural.features import check_audible
 from lipwright.engines.neural.lessons import (
     Lesson,
@@ -24,7 +24,7 @@ from lipwright.engines.neural.lessons import (
     controls_of,
     shown,
 )
-from lipwright.engines.neural.live_model import FRAME, GREATEST, LiveModel, through
+from lipwright.engines.neural.live_model import FRAME, LiveModel, through
 from lipwright.engines.neural.network import Network
 from lipwright.engines.neural.stream import hear_all
 from lipwright.engines.neural.training import fit_network
