@@ -10,8 +10,10 @@ from __future__ import annotations
 import gzip
 import os
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from functools import partial
+from itertools import pairwise
 from time import perf_counter
 
 import msgspec
@@ -21,7 +23,7 @@ from lipwright import pipeline
 from lipwright.speech import Speech
 from lipwright.studio import messages
 from lipwright.studio.asking import Studio
-from lipwright.studio.changes import AddLine, DrawCurve, LineData, SetRule
+from lipwright.studio.changes import AddLine, DrawCurve, LineData, MoveBoundary, SetRule
 from lipwright.studio.lines import line_of
 from lipwright.studio.opening import Given
 from lipwright.studio.page_views import Watcher
@@ -49,21 +51,29 @@ def thrown_away() -> Iterator[None]:
         yield
 
 
-def edit(number: int, pair: tuple[str, str]) -> bytes:
-    """A key of a pair, a little elsewhere each time, as it comes over the wire."""
+def edit(number: int) -> bytes:
+    """A key of the pair f-ah, a little elsewhere each time, as it comes over the wire."""
     keys = ((0.0, 0.0), (0.4, 0.3 + 0.4 * (number % 10) / 10), (1.0, 0.0))
-    change = DrawCurve("overrides", pair, "open", keys)
+    change = DrawCurve("overrides", ("f", "ah"), "open", keys)
     return msgspec.json.encode(messages.EditRequest(id=number, change=change, merge="drag"))
 
 
-def milliseconds(session: Session, watch: messages.Watch) -> dict[str, float]:
+def drag(phone: int, time: float, number: int) -> bytes:
+    """The end of a phone, a little elsewhere each time."""
+    change = MoveBoundary("long", phone, time + 0.001 * (number % 10))
+    return msgspec.json.encode(messages.EditRequest(id=number, change=change, merge="drag"))
+
+
+def milliseconds(
+    session: Session, watch: messages.Watch, made: Callable[[int], bytes] = edit
+) -> dict[str, float]:
     """An edit, from bytes in to all bytes out."""
     studio, watcher = Studio(session), Watcher(session)
     decoder: msgspec.json.Decoder[messages.Request] = msgspec.json.Decoder(messages.Request)
     studio.ask(watcher, watch)
     took = []
     for number in range(RUNS):
-        data = edit(number, ("f", "ah"))
+        data = made(number)
         begun = perf_counter()
         reply = studio.ask(watcher, decoder.decode(data))
         said = [*reply.own, studio.board.news(), *watcher.news()]
@@ -100,7 +110,7 @@ def over_the_wire(session: Session) -> dict[str, float]:
         took = []
         for number in range(RUNS):
             begun = perf_counter()
-            tab.socket.send(edit(number, ("f", "ah")).decode())
+            tab.socket.send(edit(number).decode())
             tab.hear("motion")
             took.append(1e3 * (perf_counter() - begun))
         return spread(took)
@@ -188,6 +198,16 @@ def main() -> None:
         seconds = f"{speech.duration:.1f} s"
         say(f"an edit of a key, line of {seconds}, on the server", **milliseconds(session, whole))
         say("the same, in 10 minutes, 10 s shown", **milliseconds(session, part))
+        long = session.state.lines["long"]
+        phone, time = next(
+            (number, former[2])
+            for number, (former, later) in enumerate(pairwise(long.phones))
+            if former[2] > 305.0 and "sil" not in (former[0], later[0])
+        )
+        say(
+            "a phone's edge in 10 minutes, 10 s shown",
+            **milliseconds(session, part, partial(drag, phone, time)),
+        )
         say(f"the same, line of {seconds}, over the socket", **over_the_wire(session))
         session.edit(SetRule("overrides", "gain", ("wide",), "", 0.9))
         say(f"the same, line of {seconds}, under gains", **milliseconds(session, whole))

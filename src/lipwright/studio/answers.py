@@ -9,6 +9,7 @@ from lipwright.studio.message_parts import (
     Cell,
     ClassInfo,
     ClassSpan,
+    ClassSplice,
     Curves,
     Document,
     DraftInfo,
@@ -24,11 +25,13 @@ from lipwright.studio.message_parts import (
     OriginView,
     Packed,
     PairSpan,
+    PairSplice,
     PairState,
     PoseInfo,
     ReasonView,
     Rule,
     Span,
+    SpanSplice,
     Stage,
 )
 
@@ -122,6 +125,24 @@ class LineView(Message, frozen=True, tag="line", kw_only=True):
     edits: tuple[EditView, ...]
     notes: tuple[str, ...]
     sound: str
+
+
+class LinePart(Message, frozen=True, tag="line part", kw_only=True):
+    """What became different in a line whose rest was sent before: so that a drag stays light.
+
+    In each list, from place ``at`` on, ``gone`` items give way to ``new`` ones.
+    """
+
+    revision: int
+    line: str
+    duration: float
+    start: float
+    end: float
+    words: SpanSplice
+    phones: SpanSplice
+    classes: ClassSplice
+    pairs: PairSplice
+    edits: tuple[EditView, ...]
 
 
 class PeaksView(Message, frozen=True, tag="peaks", kw_only=True):

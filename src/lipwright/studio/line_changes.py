@@ -23,19 +23,23 @@ def with_boundary(line: LineData, phone: int, time: float) -> LineData:
     InputError
         If there is no such phone, or no room to move.
     """
-    rows = list(line.phones)
-    if not -1 <= phone < len(rows):
-        raise InputError(f"no boundary {phone}", expected=f"-1 to {len(rows) - 1}")
-    old = rows[phone][2] if phone >= 0 else rows[0][1]
+    phones = list(line.phones)
+    if not -1 <= phone < len(phones):
+        raise InputError(f"no boundary {phone}", expected=f"-1 to {len(phones) - 1}")
+    old = phones[phone][2] if phone >= 0 else phones[0][1]
     least, most = _room(line, phone)
     if least > most:
         raise LabelError(
             f"the phones beside {old:.3f} s are too short to move it", cure="move others first"
         )
     new = round(min(max(time, least), most), DIGITS)
-    phones = tuple(_moved(row, old, new, touching(rows, phone, n)) for n, row in enumerate(rows))
-    words = tuple(_moved(row, old, new, (True, True)) for row in line.words)
-    return msgspec.structs.replace(line, phones=phones, words=_kept_apart(words, line.words))
+    for number, (label, start, end) in enumerate(phones[max(phone, 0) : phone + 2], max(phone, 0)):
+        if number == phone:
+            phones[number] = (label, start, new)
+        elif abs(start - old) < TOUCH:
+            phones[number] = (label, new, end)
+    words = _with_edges(line.words, old, new)
+    return msgspec.structs.replace(line, phones=tuple(phones), words=words)
 
 
 def _room(line: LineData, phone: int) -> tuple[float, float]:
@@ -49,26 +53,16 @@ def _room(line: LineData, phone: int) -> tuple[float, float]:
     return least, (following[2] - SHORTEST if touches else following[1])
 
 
-def touching(rows: list[Row], phone: int, number: int) -> tuple[bool, bool]:
-    """Whether the start, and the end, of a phone are at a boundary."""
-    if phone < 0:
-        return number == 0, False
-    joined = phone + 1 < len(rows) and rows[phone + 1][1] - rows[phone][2] < TOUCH
-    return joined and number == phone + 1, number == phone
-
-
-def _moved(row: Row, old: float, new: float, edges: tuple[bool, bool]) -> Row:
-    label, start, end = row
-    if edges[0] and abs(start - old) < TOUCH:
-        start = new
-    if edges[1] and abs(end - old) < TOUCH:
-        end = new
-    return (label, start, end)
-
-
-def _kept_apart(words: tuple[Row, ...], before: tuple[Row, ...]) -> tuple[Row, ...]:
-    """Keep words as they were where moving would turn one round."""
-    return words if all(start < end for _, start, end in words) else before
+def _with_edges(words: tuple[Row, ...], old: float, new: float) -> tuple[Row, ...]:
+    """Move the edges of words that lie at a boundary, unless that would turn a word round."""
+    moved = list(words)
+    for number, (label, start, end) in enumerate(words):
+        if abs(start - old) < TOUCH or abs(end - old) < TOUCH:
+            start, end = (new if abs(edge - old) < TOUCH else edge for edge in (start, end))
+            moved[number] = (label, start, end)
+            if start >= end:
+                return words
+    return tuple(moved)
 
 
 def with_edit(line: LineData, edit: Edit) -> LineData:

@@ -4,6 +4,11 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Iterator
+from typing import TypeVar
+
+import msgspec
+import numpy as np
+from numpy.typing import NDArray
 
 from lipwright.engines.bigram.edits import Found, plain_word
 from lipwright.engines.bigram.engine import BigramEngine, Solved
@@ -14,17 +19,22 @@ from lipwright.studio.changes import LineData, Row
 from lipwright.studio.lines import duration_of, tier_of
 from lipwright.studio.messages import (
     ClassSpan,
+    ClassSplice,
     EditView,
     LineName,
+    LinePart,
     LineView,
     OriginView,
     PairSpan,
+    PairSplice,
     ReasonView,
     Span,
+    SpanSplice,
     WhyView,
 )
 from lipwright.studio.motion import Motion
-from lipwright.timeline import Tier
+
+T = TypeVar("T")
 
 
 def line_name(line: LineData, lost: int) -> LineName:
@@ -57,6 +67,35 @@ def line_view(line: LineData, motion: Motion, revision: int) -> LineView:
     )
 
 
+def line_part(known: LineView, now: LineView) -> LinePart | None:
+    """Return what became different in a line; None where it is another, or has other words."""
+    said = ("revision", "duration", "start", "end", "edits")
+    lists = ("words", "phones", "classes", "pairs")
+    rest = {name: getattr(known, name) for name in said + lists}
+    if msgspec.structs.replace(now, **rest) != known:
+        return None
+    words, phones, classes, pairs = (
+        _splice(getattr(known, name), getattr(now, name)) for name in lists
+    )
+    return LinePart(
+        line=now.line,
+        words=SpanSplice(*words),
+        phones=SpanSplice(*phones),
+        classes=ClassSplice(*classes),
+        pairs=PairSplice(*pairs),
+        **{name: getattr(now, name) for name in said},
+    )
+
+
+def _splice(before: tuple[T, ...], after: tuple[T, ...]) -> tuple[int, int, tuple[T, ...]]:
+    """Return where two lists part, how much of the first is gone, and what is there instead."""
+    fewest = min(len(before), len(after))
+    at = next((n for n in range(fewest) if before[n] != after[n]), fewest)
+    left = fewest - at
+    same = next((n for n in range(left) if before[-1 - n] != after[-1 - n]), left)
+    return at, len(before) - at - same, after[at : len(after) - same]
+
+
 def _spans(rows: Iterable[Row]) -> tuple[Span, ...]:
     return tuple(Span(*row) for row in rows)
 
@@ -73,38 +112,44 @@ def _classes(line: LineData, solved: Solved) -> Iterator[ClassSpan]:
     spans = solved.spans
     places = list(phone_places(line))
     # A phone that became several classes is one phone: it is found again by its time.
-    phones = tier_of(line.phones)
-    for label, start, end in zip(
-        spans.labels, spans.starts.tolist(), spans.ends.tolist(), strict=True
-    ):
-        index = phones.index_at(0.5 * (start + end))
-        phone = -1 if index is None or line.phones[index][0] == "sil" else index
+    phones = _places_at(line.phones, 0.5 * (spans.starts + spans.ends))
+    columns = (spans.labels, spans.starts.tolist(), spans.ends.tolist(), phones)
+    for label, start, end, index in zip(*columns, strict=True):
+        phone = index if index >= 0 and line.phones[index][0] != "sil" else -1
         word, number, inside, occurrence = places[phone] if phone >= 0 else ("", -1, 0, 0)
         yield ClassSpan(label, start, end, phone, word, number, inside, occurrence)
 
 
 def phone_places(line: LineData) -> Iterator[tuple[str, int, int, int]]:
     """Yield each phone's word, the word's number, the phone's place in it, and which such word."""
-    words = tier_of(line.words)
     seen: Counter[int] = Counter()
-    occurrences = _occurrences(words)
-    for label, start, end in line.phones:
-        number = words.index_at(0.5 * (start + end))
-        place = -1 if number is None else number
-        if label != "sil" or number is None:
-            seen[place] += 1
-        if number is None:
-            yield "", -1, seen[place], 1
+    occurrences = _occurrences(line.words)
+    middles = np.array([0.5 * (start + end) for _, start, end in line.phones])
+    for (label, _, _), number in zip(line.phones, _places_at(line.words, middles), strict=True):
+        if label != "sil" or number < 0:
+            seen[number] += 1
+        if number < 0:
+            yield "", -1, seen[number], 1
         else:
-            yield words[number].label, number, seen[place], occurrences[number]
+            yield line.words[number][0], number, seen[number], occurrences[number]
 
 
-def _occurrences(words: Tier) -> list[int]:
+def _places_at(rows: tuple[Row, ...], times: NDArray[np.float64]) -> list[int]:
+    """Return which row holds each instant; -1 where none does."""
+    edges = np.array([(start, end) for _, start, end in rows]).reshape(-1, 2)
+    places = np.searchsorted(edges[:, 0], times, side="right") - 1
+    held = places >= 0
+    held[held] = times[held] < edges[places[held], 1]
+    return [int(place) for place in np.where(held, places, -1)]
+
+
+def _occurrences(words: Iterable[Row]) -> list[int]:
     count: Counter[str] = Counter()
     found = []
-    for word in words:
-        count[plain_word(word.label)] += 1
-        found.append(count[plain_word(word.label)])
+    for label, _, _ in words:
+        word = plain_word(label)
+        count[word] += 1
+        found.append(count[word])
     return found
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import OrderedDict
+from functools import lru_cache
 from hashlib import sha256
 from pathlib import Path
 
@@ -113,6 +114,7 @@ def _rows(tier: Tier) -> tuple[Row, ...]:
     return tuple((one.label, one.start, one.end) for one in tier)
 
 
+@lru_cache(maxsize=64)
 def tier_of(rows: tuple[Row, ...]) -> Tier:
     """Return rows as a tier."""
     return Tier(tuple(Interval(*row) for row in rows))

@@ -28,6 +28,8 @@ def _same(one: object, other: object) -> bool:
 
 def same(one: Any, other: Any) -> bool:
     """Whether two states of a document say the same, in the same order."""
+    if isinstance(one, tuple):
+        return _same(one, other)
     return one is other or (
         list(_named(one)) == list(_named(other)) and not changed_names(one, other)
     )

@@ -156,6 +156,30 @@ class ClassSpan(Part, frozen=True):
     occurrence: int
 
 
+class SpanSplice(Part, frozen=True):
+    """In a list of spans, from place ``at`` on, ``gone`` of them give way to ``new`` ones."""
+
+    at: int
+    gone: int
+    new: tuple[Span, ...]
+
+
+class PairSplice(Part, frozen=True):
+    """The same of pairs."""
+
+    at: int
+    gone: int
+    new: tuple[PairSpan, ...]
+
+
+class ClassSplice(Part, frozen=True):
+    """The same of classes."""
+
+    at: int
+    gone: int
+    new: tuple[ClassSpan, ...]
+
+
 class EditView(Part, frozen=True):
     """An edit of a line, and where it acts; a lost one has no place."""
 

@@ -16,6 +16,7 @@ from lipwright.studio.answers import (
     ExampleView,
     Failed,
     Hello,
+    LinePart,
     LineView,
     Made,
     MotionView,
@@ -32,6 +33,7 @@ from lipwright.studio.message_parts import (
     Cell,
     ClassInfo,
     ClassSpan,
+    ClassSplice,
     Curves,
     Document,
     DraftInfo,
@@ -47,12 +49,14 @@ from lipwright.studio.message_parts import (
     OriginView,
     Packed,
     PairSpan,
+    PairSplice,
     PairState,
     Part,
     PoseInfo,
     ReasonView,
     Rule,
     Span,
+    SpanSplice,
     Stage,
     StageCurve,
     StageName,
@@ -102,6 +106,7 @@ Answer = (
     | BigramView
     | PhoneView
     | LineView
+    | LinePart
     | PeaksView
     | MotionView
     | CharacterView
@@ -126,6 +131,7 @@ __all__ = [
     "ChooseCharacter",
     "ClassInfo",
     "ClassSpan",
+    "ClassSplice",
     "CoverageRequest",
     "CoverageView",
     "Curves",
@@ -145,6 +151,7 @@ __all__ = [
     "History",
     "Joint",
     "LineName",
+    "LinePart",
     "LineView",
     "Made",
     "Message",
@@ -153,6 +160,7 @@ __all__ = [
     "OriginView",
     "Packed",
     "PairSpan",
+    "PairSplice",
     "PairState",
     "Part",
     "PeaksView",
@@ -171,6 +179,7 @@ __all__ = [
     "Saved",
     "Say",
     "Span",
+    "SpanSplice",
     "Stage",
     "StageCurve",
     "StageName",

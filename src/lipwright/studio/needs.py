@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from lipwright.engines.bigram.coverage import Coverage, Need, coverage
 from lipwright.engines.bigram.model import BigramSet, Pair
 from lipwright.errors import LabelError, TextError
-from lipwright.phones import PhoneTrack
+from lipwright.phones import SILENCE, PhoneTrack
 from lipwright.speech import Speech
 from lipwright.studio.changes import LineData
 from lipwright.studio.lines import tier_of
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
     from lipwright.studio.session import Session
 
 SHOWN = 500
+Outline = tuple[str, tuple[str, ...], tuple[float, ...], tuple[float, ...]]
 
 
 def lines_of_session(session: Session) -> list[Speech]:
@@ -40,7 +42,7 @@ class Needs:
     """Which pairs the open lines need, kept up to date line by line."""
 
     def __init__(self) -> None:
-        self._counts: dict[int, tuple[LineData, Counter[Pair]]] = {}
+        self._counts: dict[str, tuple[LineData, Outline, Counter[Pair]]] = {}
         self._lines: tuple[int, ...] = ()
         self._shares: dict[Pair, float] = {}
 
@@ -48,15 +50,30 @@ class Needs:
         """Return each pair's share, 0..1, of the pairs of all lines."""
         places = tuple(map(id, lines.values()))
         if places != self._lines:
-            kept = {place: self._counts[place] for place in places if place in self._counts}
-            for line in lines.values():
-                if id(line) not in kept:
-                    kept[id(line)] = (line, _count(of, line))
-            self._counts, self._lines = kept, places
-            total: Counter[Pair] = sum((count for _, count in kept.values()), Counter())
+            self._counts = {name: self._counted(of, line) for name, line in lines.items()}
+            self._lines = places
+            counts = (count for _, _, count in self._counts.values())
+            total: Counter[Pair] = sum(counts, Counter())
             whole = total.total() or 1
             self._shares = {pair: amount / whole for pair, amount in total.items()}
         return self._shares
+
+    def _counted(self, of: BigramSet, line: LineData) -> tuple[LineData, Outline, Counter[Pair]]:
+        """Count a line, unless only edges between its phones have moved since."""
+        known = self._counts.get(line.id)
+        if known is not None and known[0] is line:
+            return known
+        outline = _outline(line)
+        same = known is not None and known[1] == outline
+        return line, outline, known[2] if known is not None and same else _count(of, line)
+
+
+def _outline(line: LineData) -> Outline:
+    """Return what the pairs of a line depend on: its phones, and where and how long none is."""
+    labels = tuple(label for label, _, _ in line.phones)
+    silences = (end - start for label, start, end in line.phones if label == SILENCE)
+    gaps = (later[1] - former[2] for former, later in pairwise(line.phones) if later[1] > former[2])
+    return line.phone_set, labels, tuple(silences), tuple(gaps)
 
 
 def _count(of: BigramSet, line: LineData) -> Counter[Pair]:

@@ -14,8 +14,17 @@ from lipwright.engines.bigram.model import Pair, Settings
 from lipwright.engines.bigram.set_file import built_in_sets, check_label
 from lipwright.phones import load_phone_set
 from lipwright.phones.languages import languages
-from lipwright.studio.line_views import line_name, line_view
-from lipwright.studio.messages import Answer, Cell, Changed, Hello, LineName, PeaksView, Watch
+from lipwright.studio.line_views import line_name, line_part, line_view
+from lipwright.studio.messages import (
+    Answer,
+    Cell,
+    Changed,
+    Hello,
+    LineName,
+    LineView,
+    PeaksView,
+    Watch,
+)
 from lipwright.studio.motion import motion_view
 from lipwright.studio.packing import peaks
 from lipwright.studio.session import Session
@@ -129,6 +138,7 @@ class Watcher:
         self._session = session
         self._watch = Watch()
         self._sent: dict[str, Any] = {}
+        self._shown: LineView | None = None
 
     def watch(self, wanted: Watch) -> None:
         """Watch something else.
@@ -147,6 +157,7 @@ class Watcher:
             variant_of(self._session, wanted.other, wanted.line)
         self._watch = msgspec.structs.replace(wanted, id=0)
         self._sent = {name: one for name, one in self._sent.items() if name.startswith("peaks")}
+        self._shown = None
 
     def news(self) -> Iterator[Answer]:
         """Yield what became different of what is watched."""
@@ -167,7 +178,7 @@ class Watcher:
         session = self._session
         line, motion = session.line(watch.line), session.motion(watch.line)
         if self._differs("line", line, session.cast.of.rules.settings):
-            yield line_view(line, motion, session.revision)
+            yield self._line_or_part(line_view(line, motion, session.revision))
         if line.sound and self._differs(f"peaks {line.id}", line.sound.key):
             values, rate = peaks(session.sounds.load(line.sound.key))
             address = f"sounds/{line.sound.key}.wav"
@@ -179,6 +190,10 @@ class Watcher:
             yield motion_view(motion, session.revision, line.id, "a", *seen, session.actor.name)
         if watch.other is not None:
             yield from self._other(watch, window)
+
+    def _line_or_part(self, view: LineView) -> Answer:
+        known, self._shown = self._shown, view
+        return (line_part(known, view) if known is not None else None) or view
 
     def _other(self, watch: Watch, window: tuple[float, float] | None) -> Iterator[Answer]:
         assert watch.other is not None

@@ -504,6 +504,43 @@ export interface EditView {
   end: number;
 }
 
+/** What became different in a line whose rest was sent before: so that a drag stays light. */
+export interface LinePart {
+  type: "line part";
+  id: number;
+  revision: number;
+  line: string;
+  duration: number;
+  start: number;
+  end: number;
+  words: SpanSplice;
+  phones: SpanSplice;
+  classes: ClassSplice;
+  pairs: PairSplice;
+  edits: EditView[];
+}
+
+/** In a list of spans, from place ``at`` on, ``gone`` of them give way to ``new`` ones. */
+export interface SpanSplice {
+  at: number;
+  gone: number;
+  new: Span[];
+}
+
+/** The same of classes. */
+export interface ClassSplice {
+  at: number;
+  gone: number;
+  new: ClassSpan[];
+}
+
+/** The same of pairs. */
+export interface PairSplice {
+  at: number;
+  gone: number;
+  new: PairSpan[];
+}
+
 /** A line's waveform: least and greatest sample by turns; sent once to each page. */
 export interface PeaksView {
   type: "peaks";
@@ -731,6 +768,7 @@ export type Answer =
   | BigramView
   | PhoneView
   | LineView
+  | LinePart
   | PeaksView
   | MotionView
   | CharacterView

@@ -14,6 +14,7 @@ import type {
   Hello,
   History,
   LineName,
+  LinePart,
   LineView,
   MotionView,
   PeaksView,
@@ -56,6 +57,29 @@ export interface LinePeaks {
 }
 
 export const nameOf = ([first, second]: readonly [string, string]) => `${first}-${second}`;
+
+interface Splice<T> {
+  at: number;
+  gone: number;
+  new: T[];
+}
+
+/** A line with what became different of it. */
+function joined(line: LineView, { type: _, ...part }: LinePart): LineView {
+  const spliced = <T>(list: T[], { at, gone, new: items }: Splice<T>) => [
+    ...list.slice(0, at),
+    ...items,
+    ...list.slice(at + gone),
+  ];
+  return {
+    ...line,
+    ...part,
+    words: spliced(line.words, part.words),
+    phones: spliced(line.phones, part.phones),
+    classes: spliced(line.classes, part.classes),
+    pairs: spliced(line.pairs, part.pairs),
+  };
+}
 
 export class Session {
   hello: Hello | null = null;
@@ -180,6 +204,10 @@ export class Session {
       case "line":
         if (answer.line !== this.#watched.line) return;
         this.line = answer;
+        return this.#announce("line");
+      case "line part":
+        if (answer.line !== this.line?.line) return;
+        this.line = joined(this.line, answer);
         return this.#announce("line");
       case "motion":
         if (answer.line !== this.#watched.line) return;
