@@ -7,12 +7,16 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tools.neural_model.hearing import SILENCE, hear_lines, read_heard
+from tools.neural_model import closing
+from tools.neural_model.closing import met_and_true
+from tools.neural_model.hearing import SILENCE, Heard, hear_lines, order_of, read_heard
 from tools.neural_model.lines import foreign, lines
+from tools.neural_model.shape import WHOLE
 from tools.neural_model.spoil import levelled, noise, spoilt
 from tools.neural_model.spoken import CLASSES, Spoken, read_spoken, spoken, write_spoken
 
 from lipwright.engines.neural import mel
+from tests.engines.neural.tiny import tiny
 
 COUNTS = {"english": 5, "others": 3, "flite": 2, "festival": 2}
 
@@ -62,6 +66,52 @@ def test_what_is_spoilt_stays_in_step_with_its_face(said: list[Spoken], tmp_path
         elif still.all():  # a noise alone
             assert heard.poses[start:end].max() == 0
     assert np.median(louder) > 6
+
+
+def test_lines_are_found_again_among_what_was_heard(said: list[Spoken], tmp_path: Path) -> None:
+    write_spoken(tmp_path / "s", said)
+    heard = hear_lines(tmp_path / "s", seed=2, workers=1)
+    order = order_of(len(said), 2)
+    assert sorted(order.tolist()) == [-1] * (len(said) // 5) + list(range(len(said)))
+    noises = heard.only(order < 0)
+    assert len(noises.lengths) == len(said) // 5
+    assert noises.poses.max() == 0
+    for number in range(len(said)):
+        one = heard.only(order == number)
+        assert len(one.powers) == len(one.classes) == int(one.lengths[0])
+        there = set(said[number].classes.tolist())
+        assert set(one.classes.tolist()) <= there | {SILENCE}
+
+
+def test_closures_are_met_within_two_frames() -> None:
+    ours, meant = np.zeros((2, 40), bool)
+    meant[5:8] = meant[20:23] = True
+    ours[10:12] = ours[30:33] = True
+    assert met_and_true(ours, meant) == (0.0, 0.0)
+    ours[9] = True
+    assert met_and_true(ours, meant) == (0.5, 0.5)
+    assert met_and_true(meant, meant) == (1.0, 1.0)
+
+
+def test_a_closure_is_shown_from_where_as_many_are_missed_as_made_up(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    rng = np.random.default_rng(0)
+    meant = np.arange(6000) % 20 < 4
+    doubtful = np.arange(6000) % 20 == 12
+    likely = np.where(meant, 0.85, np.where(doubtful, 0.6, 0.1)) + rng.uniform(-0.1, 0.1, 6000)
+    monkeypatch.setattr(closing, "closures", lambda *_: (likely, meant))
+    heard = Heard(
+        np.zeros((0, 40), np.float16),
+        np.zeros((0, 9), np.float16),
+        np.zeros(0, np.int8),
+        np.zeros(0, np.int64),
+    )
+    shown = closing.with_closing(tiny(), WHOLE, heard).closing
+    assert shown is not None
+    limit = shown.doubted + closing.SHUT * (shown.sure - shown.doubted)
+    assert 0.69 < limit < 0.8
+    assert shown.control == "PBM"
 
 
 def test_noises_have_one_power_and_levels_are_those_of_recordings(said: list[Spoken]) -> None:

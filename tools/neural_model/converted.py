@@ -7,20 +7,17 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from lipwright.engines.neural.convolution import WEIGHT_STEP, Affine, Block, Convolutions
-from lipwright.engines.neural.live_model import Closing, LiveModel
-from tools.neural_model.learning import POSES
+from lipwright.engines.neural.live_model import LiveModel
+from tools.neural_model.spoken import POSES
 
 if TYPE_CHECKING:
     from torch import nn
 
     from tools.neural_model.net import Net
 
-LEAVES = {"open": 0.0, "W": 0.4, "wide": 0.4, "ShCh": 0.4, "FV": 0.4}
-"""What a closed mouth leaves of other poses."""
-
 
 def converted(net: Net, about: dict[str, Any]) -> LiveModel:
-    """Return what the runtime plays of a trained net."""
+    """Return what the runtime plays of a trained net; it does not show closures yet."""
     count, shape = len(POSES), net.shape
     out = affine(net.out)
 
@@ -28,7 +25,7 @@ def converted(net: Net, about: dict[str, Any]) -> LiveModel:
         return Affine(np.ascontiguousarray(out.weights[:, first:last]), out.bias[first:last])
 
     blocks = tuple(
-        Block(dilation, affine(taps), affine(back))
+        Block(dilation, affine(taps), affine(back), shape.centred)
         for dilation, taps, back in zip(shape.dilations, net.taps, net.back, strict=True)
     )
     return LiveModel(
@@ -44,7 +41,7 @@ def converted(net: Net, about: dict[str, Any]) -> LiveModel:
         True,
         rows(out.weights.shape[1] - 1, out.weights.shape[1]),
         rows(count, count + 1),
-        Closing("PBM", LEAVES, *shape.closing),
+        None,
         about,
     )
 

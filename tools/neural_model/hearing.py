@@ -11,12 +11,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lipwright.engines.neural import mel
+from tools.neural_model.shape import Shape
 from tools.neural_model.spoil import levelled, noise, spoilt
 from tools.neural_model.spoken import CLASSES, FRAMES, RATE, Spoken, read_spoken
 
 SILENCE = CLASSES.index("sil")
 NOISES = 5
 """One piece of noise or silence for so many lines."""
+_LIKELY = (-45.0, -18.0)
+"""dB: how loud a speaker is taken to be at the start of a sound."""
 _EMPTY = 1e-10
 _PAUSE = 0.6  # s, the longest before and after a line
 
@@ -39,6 +42,11 @@ class Heard:
     poses: NDArray[np.float16]
     classes: NDArray[np.int8]
     lengths: NDArray[np.int64]
+
+    def only(self, kept: NDArray[np.bool_]) -> Heard:
+        """Return some of the lines."""
+        rows = np.repeat(kept, self.lengths)
+        return Heard(self.powers[rows], self.poses[rows], self.classes[rows], self.lengths[kept])
 
     def save(self, path: Path) -> None:
         """Write it to a file; read it with :func:`read_heard`."""
@@ -64,9 +72,7 @@ def hear_lines(speech: Path, seed: int, workers: int | None = None) -> Heard:
     workers : int, optional
         Processes; one a core, where it is not given.
     """
-    count = len(read_spoken(speech))
-    order = np.r_[np.arange(count), np.full(count // NOISES, -1)]
-    np.random.default_rng(seed).shuffle(order)
+    order = order_of(len(read_spoken(speech)), seed)
     jobs = [(int(line), seed, number) for number, line in enumerate(order)]
     with ProcessPoolExecutor(
         workers or os.cpu_count(), initializer=_take, initargs=(speech,)
@@ -79,6 +85,30 @@ def hear_lines(speech: Path, seed: int, workers: int | None = None) -> Heard:
         np.concatenate(classes),
         np.array([len(one) for one in powers]),
     )
+
+
+def order_of(count: int, seed: int) -> NDArray[np.int64]:
+    """Return which of so many lines comes when; -1 is a noise."""
+    order: NDArray[np.int64] = np.r_[np.arange(count), np.full(count // NOISES, -1)]
+    np.random.default_rng(seed).shuffle(order)
+    return order
+
+
+def bands_of(heard: Heard, shape: Shape, rng: np.random.Generator) -> NDArray[np.float16]:
+    """Return what a net of a shape hears of lines, (T, 40)."""
+    found = np.empty(heard.powers.shape, np.float16)
+    start = 0
+    for length in heard.lengths.tolist():
+        power = np.exp(heard.powers[start : start + length].astype(np.float64))
+        loud = mel.loudness(power)
+        if shape.both_ways:
+            level = mel.settled(loud)
+        else:  # the start of a sound, or the middle of one
+            known = float(loud.max()) + rng.uniform(-8, 6)
+            level = mel.followed(loud, rng.uniform(*_LIKELY) if rng.random() < 0.5 else known)
+        found[start : start + length] = mel.told(power, level)
+        start += length
+    return found
 
 
 _lines: list[Spoken] = []

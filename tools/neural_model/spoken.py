@@ -23,6 +23,7 @@ from tools.neural_model.lines import Line
 RATE = 16000
 FRAMES = 100
 """Of poses and classes per second."""
+POSES = ("open", "W", "wide", "ShCh", "FV", "PBM", "tBack", "tRoof", "tTeeth")
 CLASSES = load_phone_set("common").labels
 
 
@@ -69,6 +70,7 @@ def told(speech: Speech, voice: str) -> Spoken:
     """Animate speech with the bigram engine."""
     assert speech.sound is not None
     animation = pipeline.animate(speech, rate=FRAMES).animation
+    assert animation.controls == POSES
     sound = speech.sound
     samples = np.asarray(soxr.resample(sound.samples, sound.rate, RATE))
     times = np.arange(int(len(samples) / RATE * FRAMES)) / FRAMES

@@ -135,7 +135,7 @@ def _as_published(model: Model) -> dict[str, Any]:
 def _of_live(model: LiveModel) -> dict[str, Any]:
     from lipwright.engines.neural.live_model import FRAME
 
-    before = (model.net.reach + model.behind) * FRAME
+    before = (model.net.reach + model.behind - model.ahead) * FRAME
     way = "recordings" if model.both_ways else "recordings and streams"
     return {
         "net": list(model.shape),

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import base64
 import json
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +14,7 @@ import pytest
 
 from lipwright.engines.neural import load_model
 from lipwright.engines.neural.convolution import MOST, on_grid
-from lipwright.engines.neural.live_model import read_live_model
+from lipwright.engines.neural.live_model import LiveModel, read_live_model
 from lipwright.engines.neural.stream import hear_all
 from lipwright.errors import FileFormatError, InputError
 from tests.engines.neural.tiny import UNITS, tiny, voice
@@ -20,11 +22,12 @@ from tests.engines.neural.tiny import UNITS, tiny, voice
 MODEL = tiny()
 
 
-def test_a_file_gives_the_same_model(tmp_path: Path) -> None:
-    MODEL.save(tmp_path / "m")
+@pytest.mark.parametrize("model", [MODEL, tiny(ahead=4, centred=True)], ids=["back", "centred"])
+def test_a_file_gives_the_same_model(model: LiveModel, tmp_path: Path) -> None:
+    model.save(tmp_path / "m")
     read = read_live_model(tmp_path / "m")
-    assert read.to_bytes() == MODEL.to_bytes()
-    one, other = (hear_all(voice(0.5), 16000, model).values for model in (MODEL, read))
+    assert read.to_bytes() == model.to_bytes()
+    one, other = (hear_all(voice(0.5), 16000, which).values for which in (model, read))
     assert one.tobytes() == other.tobytes()
 
 
@@ -90,8 +93,6 @@ def test_a_file_cut_short_is_refused(kept: int, tmp_path: Path) -> None:
 def test_weights_beyond_what_sums_can_hold_are_refused(tmp_path: Path) -> None:
     document = json.loads(MODEL.to_bytes())
     big = np.full(UNITS, 2**30, "<i4").tobytes()
-    import base64
-
     zeros = base64.b64encode(bytes(4 * 160 * UNITS)).decode()
     document["first"].update(bits=32, bias=base64.b64encode(big).decode(), weights=zeros)
     (tmp_path / "m").write_text(json.dumps(document))
@@ -108,13 +109,37 @@ def test_what_layers_pass_on_is_bounded_and_on_the_grid() -> None:
     assert made.min() >= 0
 
 
+@pytest.mark.parametrize(("centred", "delay"), [(False, 0), (True, 4)])
+def test_what_passes_by_is_the_newest_instant_or_the_middle_one(centred: bool, delay: int) -> None:
+    """Blocks that add nothing leave the first layer's answer, so much later."""
+    net = tiny(centred=centred).net
+    assert net.delay == delay
+    silent = tuple(
+        replace(
+            block, back=replace(block.back, weights=0 * block.back.weights, bias=np.zeros(UNITS))
+        )
+        for block in net.blocks
+    )
+    heard = on_grid(np.random.default_rng(2).random((30, 160)))
+    alone = replace(net, blocks=())(heard, [])
+    passed = replace(net, blocks=silent)(heard, net.rest())
+    assert np.array_equal(passed[delay:], alone[: len(alone) - delay])
+
+
+@pytest.mark.parametrize("cut", [1, 3, 11])
+def test_a_centred_net_hears_pieces_as_one(cut: int) -> None:
+    net = tiny(centred=True).net
+    heard = on_grid(np.random.default_rng(3).random((30, 160)))
+    memory = net.rest()
+    pieces = [net(heard[start : start + cut], memory) for start in range(0, 30, cut)]
+    assert np.concatenate(pieces).tobytes() == net(heard, net.rest()).tobytes()
+
+
 def test_sums_do_not_depend_on_their_order() -> None:
     """Units in another order, and layers with them, are the same net to the last bit."""
     rng = np.random.default_rng(1)
     heard = on_grid(rng.random((40, 160)))
     order = rng.permutation(160)
-    from dataclasses import replace
-
     first = MODEL.net.first
     other = replace(MODEL.net, first=replace(first, weights=first.weights[order]))
     one, two = MODEL.net(heard, MODEL.net.rest()), other(heard[:, order], other.rest())

@@ -13,7 +13,9 @@ from lipwright.engines.neural.live_model import STACKED, Closing, LiveModel
 UNITS = 8
 
 
-def tiny(seed: int = 0, *, ahead: int = 1, both_ways: bool = False) -> LiveModel:
+def tiny(
+    seed: int = 0, *, ahead: int = 1, both_ways: bool = False, centred: bool = False
+) -> LiveModel:
     """A net of two blocks that gives ``open`` and ``PBM``."""
     rng = np.random.default_rng(seed)
 
@@ -24,7 +26,9 @@ def tiny(seed: int = 0, *, ahead: int = 1, both_ways: bool = False) -> LiveModel
         weights = rng.normal(0, 2 * inputs**-0.5, (inputs, units))
         return Affine(grid(weights), grid(rng.normal(0, 0.3, units)))
 
-    blocks = tuple(Block(d, affine(3 * UNITS, UNITS), affine(UNITS, UNITS)) for d in (1, 3))
+    blocks = tuple(
+        Block(d, affine(3 * UNITS, UNITS), affine(UNITS, UNITS), centred) for d in (1, 3)
+    )
     return LiveModel(
         ("open", "PBM"),
         np.zeros(2),

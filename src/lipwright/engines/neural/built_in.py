@@ -1,6 +1,6 @@
 """The models that come with Lipwright, and any other's file, by name.
 
-``whole`` hears a recording from both ways, a quarter of a second ahead; ``live`` hears as a
+``whole`` hears a recording both ways, 0.65 s from each side; ``live`` hears as a
 listener does. Both are made by ``python -m tools.neural_model`` from synthesised speech.
 """
 

@@ -1,12 +1,13 @@
-"""The live net at work: convolutions over time that only look back, exact on any machine.
+"""The live nets at work: convolutions over time, exact on any machine.
 
 Weights are whole multiples of 2⁻¹², what layers pass on are whole multiples of 2⁻¹⁰ and
 bounded. So every product and every sum of a layer fits a double without rounding, and the
 order in which a machine sums cannot change a bit: frames one at a time, a thousand at once,
 another processor, another library of linear algebra give the same.
 
-Its shape is that of temporal convolutional networks (Bai, Kolter & Koltun 2018): each block
-hears three instants, farther apart from block to block, and adds to what passes by.
+Their shape is that of temporal convolutional networks (Bai, Kolter & Koltun 2018): each block
+hears three instants, farther apart from block to block, and adds to what passes by: to the
+newest of the three in a net that only looks back, to the middle one in a net that may wait.
 """
 
 from __future__ import annotations
@@ -48,7 +49,7 @@ class Affine:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Block:
-    """Three instants ``dilation`` frames apart, through units, added to what passes by.
+    """Three instants ``dilation`` frames apart, through units, added to one of them.
 
     Parameters
     ----------
@@ -57,11 +58,14 @@ class Block:
         ``3 C`` inputs, the earliest instant first, to ``C`` units.
     back : Affine
         From the units to what is added.
+    centred : bool
+        Whether it is added to the middle instant; else to the newest.
     """
 
     dilation: int
     taps: Affine
     back: Affine
+    centred: bool = False
 
     @property
     def reach(self) -> int:
@@ -93,6 +97,11 @@ class Convolutions:
     def reach(self) -> int:
         """How many frames back the net hears."""
         return sum(block.reach for block in self.blocks)
+
+    @property
+    def delay(self) -> int:
+        """How many frames before the newest lies the one that the net speaks of."""
+        return sum(block.dilation for block in self.blocks if block.centred)
 
     def rest(self) -> Memory:
         """Return the memory of a net that has heard nothing yet."""
@@ -128,6 +137,8 @@ class Convolutions:
                 for start in range(0, block.reach + 1, block.dilation)
             ]
             units = np.maximum(_through(block.taps, instants), 0.0)
+            if block.centred:
+                passing = instants[len(instants) // 2]
             passing = _bounded(passing + _through(block.back, [units]))
         return np.maximum(passing, 0.0)
 

@@ -199,7 +199,8 @@ class LiveModel:
         ]
         rows.append(f'"first": {written(self.net.first)}')
         blocks = ",\n  ".join(
-            f'{{"dilation": {block.dilation}, "taps": {written(block.taps)},\n'
+            f'{{"dilation": {block.dilation}, "centred": {json.dumps(block.centred)},\n'
+            f'   "taps": {written(block.taps)},\n'
             f'   "back": {written(block.back)}}}'
             for block in self.net.blocks
         )
@@ -249,6 +250,7 @@ def read_live_model(path: str | Path) -> LiveModel:
             block.dilation,
             read_layer(block.taps, f"{where}, block {number}", units, 3 * units),
             read_layer(block.back, f"{where}, block {number}", units, units),
+            block.centred,
         )
         for number, block in enumerate(read.blocks, 1)
     )
@@ -281,6 +283,7 @@ def read_live_model(path: str | Path) -> LiveModel:
 
 class _Block(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     dilation: int
+    centred: bool
     taps: WrittenLayer
     back: WrittenLayer
 

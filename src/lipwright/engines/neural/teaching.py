@@ -116,7 +116,7 @@ def with_reach(ears: LiveModel) -> LiveModel:
         ears,
         ahead=ears.ahead + (later if ears.both_ways else 0),
         instants=tuple(around - later for around in REACH),
-        bands=tuple(around - later for around in HEARD),
+        bands=tuple(around - later - ears.net.delay for around in HEARD),
     )
 
 
