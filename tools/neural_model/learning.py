@@ -24,6 +24,7 @@ WARMING = 40
 """Frames at the start of each stretch that are not judged: the net has no past there."""
 RATE, DECAY, CLIP = 2e-3, 0.01, 1.0
 CLOSURES, LAST_CLOSURES = 0.2, 1.0
+MOVED = 0.5
 _POSE = torch.tensor([1.0, 0.8, 0.6, 0.7, 0.7, 0.8, 0.15, 0.15, 0.15])
 """What each pose counts: what is seen of the tongue is little."""
 _SHOWN = torch.tensor([0.0, 0.7, 0.0, 1.5, 4.0, 0.0, 0.0, 0.0, 0.0])
@@ -65,21 +66,33 @@ def learn(lessons: Lessons, shape: Shape, *, steps: int, seed: int) -> Net:
     """Return a net that has learnt: all at first, then above all when lips close."""
     torch.manual_seed(seed)
     net = Net(shape, len(POSES), len(CLASSES))
-    go_on(net, lessons, steps=steps, rate=RATE, closures=CLOSURES, seed=seed)
+    go_on(net, lessons, steps=steps, seed=seed, rate=RATE, closures=CLOSURES, apart=MOVED)
     return sharpened(net, lessons, steps=steps, seed=seed)
 
 
 def sharpened(net: Net, lessons: Lessons, *, steps: int, seed: int) -> Net:
-    """Return a net after a fifth of its steps more, in which closures count for more."""
+    """Return a net after a fifth of its steps more, in which closures count for more.
+
+    What a shape says of these steps holds, too.
+    """
     seed += 1
     torch.manual_seed(seed)
-    go_on(net, lessons, steps=steps // 5, rate=RATE / 4, closures=LAST_CLOSURES, seed=seed)
+    net.dropped = net.shape.last_dropped
+    last = {"rate": RATE / 4, "closures": LAST_CLOSURES, "apart": net.shape.last_moved}
+    go_on(net, lessons, steps=steps // 5, seed=seed, **last)
     net.eval()
     return net
 
 
 def go_on(
-    net: Net, lessons: Lessons, *, steps: int, rate: float, closures: float, seed: int
+    net: Net,
+    lessons: Lessons,
+    *,
+    steps: int,
+    seed: int,
+    rate: float,
+    closures: float,
+    apart: float,
 ) -> None:
     """Teach a net further.
 
@@ -88,17 +101,19 @@ def go_on(
     net : Net
     lessons : Lessons
     steps : int
+    seed : int
+        Of what is shown.
     rate : float
         The greatest step; it begins small and ends at nearly nothing.
     closures : float
         What a closure counts.
-    seed : int
-        Of what is shown.
+    apart : float
+        How far bands are moved: by so many at most, and by 0.06 of their place times that.
     """
     net.train()
     optimiser = torch.optim.AdamW(net.parameters(), lr=rate, weight_decay=DECAY)
     rates = torch.optim.lr_scheduler.OneCycleLR(optimiser, rate, total_steps=steps, pct_start=0.1)
-    seen = stretches(lessons, net.shape, np.random.default_rng(seed))
+    seen = stretches(lessons, net.shape, apart, np.random.default_rng(seed))
     mean = 0.0
     for step, (bands, poses, classes) in zip(range(1, steps + 1), seen, strict=False):
         loss = wrong(net(bands)[:, net.shape.ahead :], poses, classes, closures)
@@ -113,7 +128,7 @@ def go_on(
 
 
 def stretches(
-    lessons: Lessons, shape: Shape, rng: np.random.Generator
+    lessons: Lessons, shape: Shape, apart: float, rng: np.random.Generator
 ) -> Iterator[tuple[Tensor, Tensor, Tensor]]:
     """Return, without end, stretches of some seconds: bands, poses, classes.
 
@@ -127,7 +142,7 @@ def stretches(
         bands = np.stack([lessons.bands[s - 4 : s - 4 + span] for s in starts]).astype(np.float32)
         poses = np.stack([lessons.poses[s : s + 2 * frames : 2] for s in starts])
         classes = np.stack([lessons.classes[s : s + 2 * frames : 2] for s in starts])
-        bands = shifted(bands, rng)
+        bands = shifted(bands, apart, rng)
         bands += rng.normal(0, 0.03, (BATCH, 1, 1)) + rng.normal(0, 0.04, (BATCH, 1, mel.BANDS))
         for row in np.flatnonzero(rng.random(BATCH) < 0.5):
             first, wide = int(rng.integers(mel.BANDS - 6)), int(rng.integers(1, 7))
@@ -139,12 +154,15 @@ def stretches(
         )
 
 
-def shifted(bands: NDArray[np.float32], rng: np.random.Generator) -> NDArray[np.float32]:
+def shifted(
+    bands: NDArray[np.float32], apart: float, rng: np.random.Generator
+) -> NDArray[np.float32]:
     """Return bands as longer and shorter throats would have them: moved along the scale."""
     places = np.arange(mel.BANDS)
     found = np.empty_like(bands)
     for row, one in enumerate(bands):
-        at = np.clip(places * rng.uniform(0.97, 1.03) + rng.uniform(-0.5, 0.5), 0, mel.BANDS - 1)
+        longer = rng.uniform(1 - 0.06 * apart, 1 + 0.06 * apart)
+        at = np.clip(places * longer + rng.uniform(-apart, apart), 0, mel.BANDS - 1)
         low = np.minimum(at.astype(np.intp), mel.BANDS - 2)
         share = (at - low).astype(np.float32)
         found[row] = one[:, low] * (1 - share) + one[:, low + 1] * share
