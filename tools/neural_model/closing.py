@@ -19,7 +19,7 @@ LEAVES = {"open": 0.0, "W": 0.4, "wide": 0.4, "ShCh": 0.4, "FV": 0.4}
 """What a closed mouth leaves of other poses."""
 WITHIN = 2
 """Frames by which a closure may come early or late and still be the one that was meant."""
-WIDE = 0.1
+WIDE = 0.3
 """How much likelier than hardly a closure is surely."""
 SHUT = 0.72
 """The share of the way at which the lips are open by less than 15 % of their range."""
