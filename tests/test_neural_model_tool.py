@@ -11,7 +11,8 @@ from tools.neural_model import closing
 from tools.neural_model.closing import met_and_true
 from tools.neural_model.hearing import SILENCE, Heard, hear_lines, order_of, read_heard
 from tools.neural_model.lines import foreign, lines
-from tools.neural_model.shape import WHOLE
+from tools.neural_model.shape import LIVE, WHOLE, Shape
+from tools.neural_model.shown import Lessons, recorded, shifted, stretches
 from tools.neural_model.spoil import levelled, noise, spoilt
 from tools.neural_model.spoken import CLASSES, Spoken, read_spoken, spoken, write_spoken
 
@@ -126,3 +127,58 @@ def test_noises_have_one_power_and_levels_are_those_of_recordings(said: list[Spo
         assert len(sound) == pytest.approx(len(line.samples) / faster, abs=2)
         assert 0.8 < faster < 1.25
         assert np.abs(levelled(sound, rng)).max() <= 1
+
+
+def told(seed: int) -> np.ndarray[tuple[int, int, int], np.dtype[np.float32]]:
+    """Bands as nets hear them, 50 stretches: sounds of all levels, and nothing."""
+    bands = np.random.default_rng(seed).uniform(0, 1.1, (50, 30, mel.BANDS)).astype(np.float32)
+    bands[:, 10:20] = 0.0
+    return bands
+
+
+def test_other_recordings_keep_silence_and_the_order_of_levels() -> None:
+    bands = told(1)
+    heard = recorded(bands, np.random.default_rng(2))
+    assert heard.dtype == np.float32
+    assert np.median(heard[:, 10:20]) < 0.001
+    assert heard[:, 10:20].max() < 0.15
+    order = np.argsort(bands, axis=1)  # of a band, over time
+    assert np.diff(np.take_along_axis(heard, order, axis=1), axis=1).min() > -1e-5
+
+
+def test_other_recordings_lie_higher_and_lower_wider_and_narrower() -> None:
+    heard = recorded(np.full((400, 1, mel.BANDS), 0.5, np.float32), np.random.default_rng(3))
+    middle = heard[:, 0, mel.BANDS // 2]
+    assert 0.09 < middle.std() < 0.15
+    tilt = heard[:, 0, -1] - heard[:, 0, 0]
+    assert 0.15 < tilt.std() < 0.25
+    assert abs(middle.mean() - 0.5) < 0.03
+    assert abs(tilt.mean()) < 0.03
+
+
+def test_throats_move_what_is_heard_along_the_scale() -> None:
+    bands = np.zeros((200, 1, mel.BANDS), np.float32)
+    bands[..., 20] = 1.0
+    moved = shifted(bands, 1.5, np.random.default_rng(4))
+    places = (moved * np.arange(mel.BANDS)).sum(-1) / moved.sum(-1)
+    assert 16.5 < places.min() < 18.5
+    assert 21.5 < places.max() < 23.5
+    assert np.allclose(shifted(bands, 0.0, np.random.default_rng(4)), bands)
+
+
+@pytest.mark.parametrize("shape", [WHOLE, LIVE])
+def test_faces_are_shown_beside_what_is_heard_of_them(shape: Shape) -> None:
+    times = np.arange(4000)
+    loud = (times // 75 % 2).astype(np.float16)  # a sound and a pause in turn
+    lessons = Lessons(
+        np.repeat(0.8 * loud[:, None], mel.BANDS, axis=1),
+        np.repeat(loud[:, None], 9, axis=1),
+        loud.astype(np.int8),
+    )
+    bands, poses, classes = next(stretches(lessons, shape, 0.0, np.random.default_rng(5)))
+    assert bands.shape == (32, 2 * (250 + shape.ahead) + 2, mel.BANDS)
+    assert poses.shape == (32, 250, 9)
+    assert 0.4 < classes.mean() < 0.6
+    assert np.array_equal(classes, poses[..., 0])
+    own = np.median(bands[:, 4 : 4 + 500 : 2], axis=2)  # two more bands' frames come first
+    assert np.array_equal(own > 0.25, poses[..., 0] > 0.5)

@@ -18,9 +18,10 @@ from lipwright.engines.neural.built_in import FOLDER
 from tools.neural_model.closing import with_closing
 from tools.neural_model.converted import converted
 from tools.neural_model.hearing import hear_lines, order_of, read_heard
-from tools.neural_model.learning import learn, lessons_of
+from tools.neural_model.learning import learn
 from tools.neural_model.lines import lines
 from tools.neural_model.shape import LIVE, WHOLE
+from tools.neural_model.shown import lessons_of
 from tools.neural_model.spoken import RATE, read_spoken, speak_all, write_spoken
 
 SEED = 1
