@@ -141,7 +141,7 @@ def test_other_recordings_keep_silence_and_the_order_of_levels() -> None:
     heard = recorded(bands, np.random.default_rng(2))
     assert heard.dtype == np.float32
     assert np.median(heard[:, 10:20]) < 0.001
-    assert heard[:, 10:20].max() < 0.15
+    assert np.quantile(heard[:, 10:20], 0.9) < 0.05
     order = np.argsort(bands, axis=1)  # of a band, over time
     assert np.diff(np.take_along_axis(heard, order, axis=1), axis=1).min() > -1e-5
 

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from lipwright.engines.neural import mel
 from lipwright.engines.neural.convolution import WEIGHT_STEP, Affine, Block, Convolutions
 from lipwright.engines.neural.live_model import LiveModel
 from tools.neural_model.spoken import POSES
@@ -35,6 +36,7 @@ def converted(net: Net, about: dict[str, Any]) -> LiveModel:
         Convolutions(affine(net.first), blocks),
         shape.ahead - shape.late,
         shape.both_ways,
+        mel.DEPTH,
         (0,),
         (),
         (rows(0, count),),

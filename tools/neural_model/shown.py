@@ -14,9 +14,9 @@ from tools.neural_model.shape import Shape
 
 BATCH, SECONDS = 32, 5.0
 RAISED, TILTED, DEEPENED = 0.1, 0.1, 0.15
-"""How far recordings lie apart, standard deviations: 4.5 dB all bands, 4.5 dB either end of the
-scale, 15 % what lies below the loudest."""
-_SCALE = np.log(10.0) / 10.0 * mel.FLOOR
+"""How far recordings lie apart, standard deviations: all bands and either end of the scale, as
+shares of the depth; and how deep all that lies below the loudest is, 15 %."""
+_SCALE = np.log(10.0) / 10.0 * mel.DEPTH
 _SILENT = 1e-3
 """Of the power at the floor."""
 _ALONG = np.linspace(-1, 1, mel.BANDS, dtype=np.float32)

@@ -164,3 +164,14 @@ def test_a_likely_closure_closes() -> None:
     assert closer.any()
     assert (shut[closer, 0] < plain[closer, 0]).all()
     assert (shut[:, 1] >= plain[:, 1]).all()
+
+
+def test_a_model_hears_as_deep_below_the_loudest_as_it_says() -> None:
+    soft = 1e-5 * voice(0.5)  # 100 dB below what follows
+    for depth, heard in ((60.0, False), (120.0, True)):
+        model = replace(tiny(3), both_ways=True, depth=depth)
+        there, not_there = (
+            hear_all(np.r_[quiet, voice(1.0)], 16000, model).values[:20]
+            for quiet in (soft, np.zeros_like(soft))
+        )
+        assert np.array_equal(there, not_there) is not heard

@@ -36,6 +36,7 @@ def tiny(
         Convolutions(affine(STACKED * mel.BANDS, UNITS), blocks),
         ahead,
         both_ways,
+        mel.DEPTH,
         (-2, 0),
         (-1, 0),
         (affine(2 * UNITS + 2 * mel.BANDS, 5), affine(5, 2)),

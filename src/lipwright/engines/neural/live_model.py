@@ -31,6 +31,7 @@ FRAME = 0.02
 STACKED = 4
 """Mel frames that the first layer hears at once; the newest two are new."""
 MOST_AHEAD = 100
+DEPTHS = (10, 120)  # dB
 Floats = NDArray[np.float64]
 
 
@@ -68,6 +69,8 @@ class LiveModel:
         Frames that are heard beyond the one that is answered.
     both_ways : bool
         Whether the loudness is that of the whole recording: such a model cannot stream.
+    depth : float
+        dB below the loudness under which it hears nothing.
     instants : tuple of int
         Frames, 0 or before, of which the last layers take what the convolutions make.
     bands : tuple of int
@@ -94,6 +97,7 @@ class LiveModel:
     net: Convolutions
     ahead: int
     both_ways: bool
+    depth: float
     instants: tuple[int, ...]
     bands: tuple[int, ...]
     layers: tuple[Affine, ...]
@@ -186,6 +190,7 @@ class LiveModel:
             ("high", self.high.tolist()),
             ("ahead", self.ahead),
             ("both_ways", self.both_ways),
+            ("depth", self.depth),
             ("instants", list(self.instants)),
             ("bands", list(self.bands)),
             ("logistic", self.logistic),
@@ -270,6 +275,7 @@ def read_live_model(path: str | Path) -> LiveModel:
         net,
         read.ahead,
         read.both_ways,
+        read.depth,
         tuple(read.instants),
         tuple(read.bands),
         tuple(layers),
@@ -306,6 +312,7 @@ class _Document(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     high: list[float]
     ahead: int
     both_ways: bool
+    depth: float
     instants: list[int]
     bands: list[int]
     logistic: bool
@@ -329,6 +336,8 @@ def _check(read: _Document, where: str) -> None:
         raise unfit("a range that is none", where, "low below high")
     if not 0 <= read.ahead <= MOST_AHEAD:
         raise unfit(f"{read.ahead} frames ahead", where, f"0 to {MOST_AHEAD}")
+    if not DEPTHS[0] <= read.depth <= DEPTHS[1]:
+        raise unfit(f"a depth of {read.depth:g} dB", where, "{} to {} dB".format(*DEPTHS))
     for name, instants in (("instants", read.instants), ("bands", read.bands)):
         rising = sorted(set(instants)) == instants
         if not rising or any(not -MOST_AHEAD <= back <= 0 for back in instants):

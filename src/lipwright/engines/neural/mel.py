@@ -25,8 +25,9 @@ _FFT = 512
 _LOWEST, _HIGHEST = 60.0, 7600.0
 QUIETEST = -62.0
 """dB of full scale; what stays below it all the time is silence."""
-FLOOR = 45.0
-"""dB below the loudness under which nothing is heard."""
+DEPTH = 60.0
+"""dB below the loudness under which our nets hear nothing: many recordings are dark, and little of
+the upper bands would be left at 45."""
 _FALL = 4.0
 """dB by which the loudness falls per second."""
 _TENTHS = np.log(10.0) / 10.0
@@ -120,7 +121,7 @@ def settled(loud: Floats) -> Floats:
     return np.maximum(followed(loud), followed(loud[::-1])[::-1])
 
 
-def told(power: Floats, level: Floats) -> Floats:
+def told(power: Floats, level: Floats, depth: float = DEPTH) -> Floats:
     """Return bands in relation to a loudness: 0 at the floor, 1 at the loudness itself.
 
     Parameters
@@ -128,10 +129,12 @@ def told(power: Floats, level: Floats) -> Floats:
     power : (T, 40) float64
     level : (T,) float64
         dB.
+    depth : float
+        dB from the loudness down to the floor.
 
     Returns
     -------
     (T, 40) float64
     """
-    base = np.exp(_TENTHS * (level - FLOOR))[:, None]
-    return np.asarray(np.log(power / base + 1.0) / (_TENTHS * FLOOR))
+    base = np.exp(_TENTHS * (level - depth))[:, None]
+    return np.asarray(np.log(power / base + 1.0) / (_TENTHS * depth))

@@ -147,7 +147,7 @@ class Stream:
             self._level = float(levels[-1])
             self._pending = self._pending[due * mel.HOP :]
             self._mels += due
-            found.append(self._hearing.hear(mel.told(power, levels)))
+            found.append(self._hearing.hear(mel.told(power, levels, self.model.depth)))
         return joined(found, self._hearing.none())
 
     def _due(self, end: int | None) -> int:
@@ -325,7 +325,7 @@ def hear_all(samples: NDArray[np.float32], rate: int, model: LiveModel) -> Frame
     levels = mel.settled(np.concatenate([mel.loudness(block) for block in blocks]))
     for number, block in enumerate(blocks):
         own = levels[number * _AT_ONCE :][: len(block)]
-        found.append(hearing.hear(mel.told(block, own)))
+        found.append(hearing.hear(mel.told(block, own, model.depth)))
     wanted = len(heard) // round(FRAME * mel.RATE) + 1
     found.append(hearing.to_the_end(wanted))
     return joined(found, hearing.none())
