@@ -14,7 +14,9 @@ from lipwright import pipeline
 from lipwright.animation import Animation
 from lipwright.cli import main
 from lipwright.engines.neural import LIVE, WHOLE, Stream, load_model
+from lipwright.engines.neural.engine import NeuralEngine
 from lipwright.engines.neural.live_model import LiveModel
+from lipwright.engines.neural.stream import hear_all
 from lipwright.hearing import choose_engine
 from lipwright.neural_takes import train_model
 from lipwright.sound import Sound
@@ -256,6 +258,34 @@ def test_what_was_learnt_live_streams_to_the_bit(taught: Path, line: Speech) -> 
     whole = np.concatenate([again.push(sound).values, again.finish().values])
     assert parts.tobytes() == whole.tobytes()
     assert stream.latency <= 0.040
+
+
+@pytest.mark.parametrize("hears", MODELS)
+def test_what_was_learnt_doubts_where_the_built_in_net_does(
+    hears: str, taught: Path, line: Speech
+) -> None:
+    model = train_model([(taught / "line.wav", taught / "line.json")], hears=hears, hidden=(4,))
+    ears = load_model(hears)
+    assert isinstance(model, LiveModel)
+    assert isinstance(ears, LiveModel)
+    assert line.sound is not None
+    sound = line.sound.resampled(16000).samples
+    own, its = (hear_all(sound, 16000, one) for one in (model, ears))
+    assert own.first == its.first
+    # Only what comes after the end of the sound may differ: one hears farther.
+    assert np.array_equal(own.doubt[:-70], its.doubt[:-70])
+    assert np.ptp(own.doubt[:-70]) > 0.01
+
+
+@pytest.mark.parametrize("hears", MODELS)
+def test_what_was_learnt_moves_as_far_as_what_was_shown(hears: str, taught: Path) -> None:
+    model = train_model([(taught / "line.wav", taught / "line.json")], hears=hears, hidden=(16,))
+    heard = NeuralEngine(model).animate(pipeline.sound_alone(taught / "line.wav"))
+    shown = Animation.load(taught / "line.json").at(heard.times)
+    broad, moved = heard.values.std(axis=0), shown.std(axis=0)
+    seen = [heard.controls.index(name) for name in ("open", "W", "wide", "PBM")]
+    assert (broad[seen] > 0.9 * moved[seen]).all()
+    assert (broad[seen] < 1.1 * moved[seen]).all()
 
 
 def test_the_five_are_learnt_on_top_too(taught: Path) -> None:

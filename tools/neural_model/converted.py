@@ -37,6 +37,7 @@ def converted(net: Net, about: dict[str, Any]) -> LiveModel:
         shape.ahead - shape.late,
         shape.both_ways,
         mel.DEPTH,
+        0,
         (0,),
         (),
         (rows(0, count),),

@@ -60,6 +60,7 @@ BROKEN: dict[str, tuple[Callable[[dict[str, Any]], None], str]] = {
     "a range upside down": (lambda d: change(d, "low", to=[2.0, 0.0]), "a range that is none"),
     "far ahead": (lambda d: change(d, "ahead", to=1000), "1000 frames ahead"),
     "too deep": (lambda d: change(d, "depth", to=500), "a depth of 500 dB"),
+    "answers long after": (lambda d: change(d, "own", to=-400), "an answer -400 frames away"),
     "instants to come": (lambda d: change(d, "instants", to=[0, 2]), "the instants [0, 2]"),
     "bands long ago": (lambda d: change(d, "bands", to=[-500, 0]), "the bands [-500, 0]"),
     "no layers": (lambda d: change(d, "layers", to=[]), "no layers"),

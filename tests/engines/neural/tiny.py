@@ -37,6 +37,7 @@ def tiny(
         ahead,
         both_ways,
         mel.DEPTH,
+        0,
         (-2, 0),
         (-1, 0),
         (affine(2 * UNITS + 2 * mel.BANDS, 5), affine(5, 2)),

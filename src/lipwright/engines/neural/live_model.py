@@ -71,6 +71,8 @@ class LiveModel:
         Whether the loudness is that of the whole recording: such a model cannot stream.
     depth : float
         dB below the loudness under which it hears nothing.
+    own : int
+        Which frame is answered, 0 or before: of it are the doubt and the closure.
     instants : tuple of int
         Frames, 0 or before, of which the last layers take what the convolutions make.
     bands : tuple of int
@@ -98,6 +100,7 @@ class LiveModel:
     ahead: int
     both_ways: bool
     depth: float
+    own: int
     instants: tuple[int, ...]
     bands: tuple[int, ...]
     layers: tuple[Affine, ...]
@@ -122,7 +125,7 @@ class LiveModel:
     @property
     def behind(self) -> int:
         """Frames before the newest that the last layers still hear."""
-        return -min((0, *self.instants, *self.bands))
+        return -min((self.own, *self.instants, *self.bands))
 
     @property
     def taken(self) -> int:
@@ -163,7 +166,8 @@ class LiveModel:
         """
         values = through(self.layers, self.taken_in(rows))
         values = np.clip(logistic(values) if self.logistic else values, self.low, self.high)
-        made = np.ascontiguousarray(rows[self.behind :, : self.net.units])
+        made = rows[self.behind + self.own :][: len(values), : self.net.units]
+        made = np.ascontiguousarray(made)
         doubt = np.exp(np.minimum(applied(self.doubt, made)[:, 0], 0.0))
         if self.closed is not None and self.closing is not None:
             values = self._closed(values, logistic(applied(self.closed, made)[:, 0]))
@@ -191,6 +195,7 @@ class LiveModel:
             ("ahead", self.ahead),
             ("both_ways", self.both_ways),
             ("depth", self.depth),
+            ("own", self.own),
             ("instants", list(self.instants)),
             ("bands", list(self.bands)),
             ("logistic", self.logistic),
@@ -276,6 +281,7 @@ def read_live_model(path: str | Path) -> LiveModel:
         read.ahead,
         read.both_ways,
         read.depth,
+        read.own,
         tuple(read.instants),
         tuple(read.bands),
         tuple(layers),
@@ -313,6 +319,7 @@ class _Document(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     ahead: int
     both_ways: bool
     depth: float
+    own: int
     instants: list[int]
     bands: list[int]
     logistic: bool
@@ -338,6 +345,8 @@ def _check(read: _Document, where: str) -> None:
         raise unfit(f"{read.ahead} frames ahead", where, f"0 to {MOST_AHEAD}")
     if not DEPTHS[0] <= read.depth <= DEPTHS[1]:
         raise unfit(f"a depth of {read.depth:g} dB", where, "{} to {} dB".format(*DEPTHS))
+    if not -MOST_AHEAD <= read.own <= 0:
+        raise unfit(f"an answer {read.own} frames away", where, f"{-MOST_AHEAD} to 0")
     for name, instants in (("instants", read.instants), ("bands", read.bands)):
         rising = sorted(set(instants)) == instants
         if not rising or any(not -MOST_AHEAD <= back <= 0 for back in instants):

@@ -37,12 +37,16 @@ HIDDEN = 64
 REACH = (-6, -3, 0, 3, 6)
 """Frames around the one that is answered of which it is taken what the convolutions make."""
 HEARD = tuple(range(-12, 13))
-"""Frames around it whose bands are taken too; a model that streams hears those before only."""
+"""Frames around it whose bands are taken too."""
+REACH_BACK, HEARD_BACK = (-8, -6, -4, -2, 0), tuple(range(-16, 1))
+"""The same of a model that streams."""
 NETS = 3
 STILLEST = 0.01
 """Units that deviate by less, in training, are not listened to."""
 DECAY, RATE = 6.0, 0.002
 """Weight decay and step: what did best on sentences left out, ten minutes taught."""
+BROADEST = 2.0
+"""How far answers are moved away from their mean, at most, to be as broad as what was shown."""
 FRAMES, MOST = 300_000, 150
 """Frames that are gone through in all, however many there are; and passes, at most."""
 
@@ -94,7 +98,7 @@ def teach(
         fit_network(inputs, targets, hidden, seed + number, decay=DECAY, passes=passes, rate=RATE)
         for number in range(NETS)
     ]
-    layers = together(nets)
+    layers = broadened(together(nets), inputs, targets)
     error = float(np.sqrt(np.square(through(layers, inputs) - targets).mean()))
     return replace(
         ears,
@@ -111,12 +115,14 @@ def teach(
 
 def with_reach(ears: LiveModel) -> LiveModel:
     """Return ears whose last layers hear several instants: around the frame, if they may wait."""
-    later = HEARD[-1]
+    reach, heard = (REACH, HEARD) if ears.both_ways else (REACH_BACK, HEARD_BACK)
+    later = heard[-1]
     return replace(
         ears,
-        ahead=ears.ahead + (later if ears.both_ways else 0),
-        instants=tuple(around - later for around in REACH),
-        bands=tuple(around - later - ears.net.delay for around in HEARD),
+        ahead=ears.ahead + later,
+        own=-later,
+        instants=tuple(around - later for around in reach),
+        bands=tuple(around - later - ears.net.delay for around in heard),
     )
 
 
@@ -156,6 +162,28 @@ def together(nets: Sequence[Network]) -> tuple[Affine, ...]:
             found = _side_by_side(weights), np.concatenate(biases)
         layers.append(Affine(_on_weight_grid(found[0]), _on_weight_grid(found[1])))
     return tuple(layers)
+
+
+def broadened(layers: tuple[Affine, ...], inputs: Floats, targets: Floats) -> tuple[Affine, ...]:
+    """Return layers whose answers are as broad as what was shown.
+
+    A net gives the mean of what it cannot tell apart, so that lips which close a little sooner
+    or later each time would never close. Each control is moved away from its mean until its
+    deviation is that of the targets (Toda and Tokuda 2007 do so to spectra), twice as far at
+    most.
+
+    Parameters
+    ----------
+    layers : tuple of Affine
+    inputs : (N, I) float64
+    targets : (N, K) float64
+    """
+    answers = through(layers, inputs)
+    narrow = answers.std(axis=0)
+    gain = np.clip(targets.std(axis=0) / np.maximum(narrow, 1e-9), 1.0, BROADEST)
+    last, mean = layers[-1], answers.mean(axis=0)
+    weights, bias = last.weights * gain, mean + (last.bias - mean) * gain
+    return (*layers[:-1], Affine(_on_weight_grid(weights), _on_weight_grid(bias)))
 
 
 def _raw(net: Network, weights: Floats, bias: Floats) -> tuple[Floats, Floats]:
