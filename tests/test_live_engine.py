@@ -18,7 +18,7 @@ from lipwright.engines.neural.engine import NeuralEngine
 from lipwright.engines.neural.live_model import LiveModel
 from lipwright.engines.neural.stream import hear_all
 from lipwright.hearing import choose_engine
-from lipwright.neural_takes import train_model
+from lipwright.neural_takes import Hears, train_model
 from lipwright.sound import Sound
 from lipwright.speech import Speech
 from tests.cli.test_bad_input import fails
@@ -262,7 +262,7 @@ def test_what_was_learnt_live_streams_to_the_bit(taught: Path, line: Speech) -> 
 
 @pytest.mark.parametrize("hears", MODELS)
 def test_what_was_learnt_doubts_where_the_built_in_net_does(
-    hears: str, taught: Path, line: Speech
+    hears: Hears, taught: Path, line: Speech
 ) -> None:
     model = train_model([(taught / "line.wav", taught / "line.json")], hears=hears, hidden=(4,))
     ears = load_model(hears)
@@ -278,7 +278,7 @@ def test_what_was_learnt_doubts_where_the_built_in_net_does(
 
 
 @pytest.mark.parametrize("hears", MODELS)
-def test_what_was_learnt_moves_as_far_as_what_was_shown(hears: str, taught: Path) -> None:
+def test_what_was_learnt_moves_as_far_as_what_was_shown(hears: Hears, taught: Path) -> None:
     model = train_model([(taught / "line.wav", taught / "line.json")], hears=hears, hidden=(16,))
     heard = NeuralEngine(model).animate(pipeline.sound_alone(taught / "line.wav"))
     shown = Animation.load(taught / "line.json").at(heard.times)
