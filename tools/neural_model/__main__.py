@@ -1,7 +1,7 @@
 """``python -m tools.neural_model WORK``: makes ``src/lipwright/data/neural/*.json`` anew.
 
 It needs espeak-ng (extra ``tts``), PyTorch, and of Debian: flite, festival,
-festvox-kallpc16k, festvox-kdlpc16k, festvox-us-slt-hts. On two cores it takes two hours; what
+festvox-kallpc16k, festvox-kdlpc16k, festvox-us-slt-hts. On two cores it takes an hour or two; what
 lies in the folder WORK already is not made again. The seed fixes what is spoken, how it is
 spoilt and what is shown; PyTorch's sums may differ in their last digits from one machine to
 another, and with them the weights.
