@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+import asyncio
 from collections.abc import Iterator
 from pathlib import Path
 
+import msgspec
 import pytest
 from websockets.exceptions import ConnectionClosed
 
 from lipwright.character import keep_character
+from lipwright.studio.messages import Failed, Watch
+from lipwright.studio.page_views import Board
+from lipwright.studio.server import Page
 from tests.studio.live import TOKEN, Live, live
 from tests.studio.made import opened, sound
 
@@ -226,3 +231,27 @@ def test_a_mistake_of_our_own_is_told_and_the_studio_goes_on(
         assert "nothing was lost" in said.error
         assert "ZeroDivisionError" in capsys.readouterr().err
         assert tab.ask("start", "hello").history.undo_steps == 1
+
+
+def test_what_became_different_is_sent_though_an_answer_follows_at_once(desk: Path) -> None:
+    session = opened("english", "low.json")
+    board = Board(session)
+    sent: list[str] = []
+
+    class Socket:
+        async def send_text(self, text: str) -> None:
+            sent.append(msgspec.json.decode(text)["type"])
+
+    async def delivered() -> None:
+        page = Page(Socket(), session)  # type: ignore[arg-type]
+        page.watcher.watch(Watch(pair=("f", "ah")))
+        page.say(board.news(), 1)
+        page.due()
+        page.say(Failed(error="of the request that came behind"), 2)
+        sending = asyncio.create_task(page.deliver())
+        while "watched" not in sent:
+            await asyncio.sleep(0.001)
+        sending.cancel()
+
+    asyncio.run(asyncio.wait_for(delivered(), 10))
+    assert sent == ["changed", "failed", "bigram", "watched"]

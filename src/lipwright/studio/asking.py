@@ -117,8 +117,7 @@ class Studio:
                 return Reply(everyone=(self.board.hello(),), changed=True)
             case messages.Watch():
                 watcher.watch(request)
-                views = tuple(watcher.news())
-                return Reply((*views, messages.Watched(revision=session.revision)))
+                return Reply(tuple(watcher.all_news()))
             case messages.TryPose(weights=weights):
                 return Reply((PoseView(channels=session.actor.pose(weights)),))
             case messages.Why():

@@ -24,6 +24,7 @@ from lipwright.studio.messages import (
     LineView,
     PeaksView,
     Watch,
+    Watched,
 )
 from lipwright.studio.motion import motion_view
 from lipwright.studio.packing import peaks
@@ -158,6 +159,12 @@ class Watcher:
         self._watch = msgspec.structs.replace(wanted, id=0)
         self._sent = {name: one for name, one in self._sent.items() if name.startswith("peaks")}
         self._shown = None
+
+    def all_news(self) -> Iterator[Answer]:
+        """Yield what became different of what is watched, and that this is all."""
+        revision = self._session.revision
+        yield from self.news()
+        yield Watched(revision=revision)
 
     def news(self) -> Iterator[Answer]:
         """Yield what became different of what is watched."""

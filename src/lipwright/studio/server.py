@@ -66,7 +66,10 @@ class Page:
         self._said.put_nowait(_ENCODER.encode(msgspec.structs.replace(answer, id=number)))
 
     def due(self) -> None:
-        """Send, when the page has taken what is on its way, what became different."""
+        """Send, when the page has taken what is on its way, what became different.
+
+        Behind it comes :class:`Watched`: a page knows from its revision what it has seen.
+        """
         self._is_due = True
         self._said.put_nowait(None)
 
@@ -76,9 +79,10 @@ class Page:
             said = await self._said.get()
             if said is not None:
                 await self._socket.send_text(said.decode())
-            elif self._is_due and self._said.empty():
+            # An answer may have come in behind what woke us: then it goes first.
+            if self._is_due and self._said.empty():
                 self._is_due = False
-                for view in self.watcher.news():
+                for view in self.watcher.all_news():
                     await self._socket.send_text(_ENCODER.encode(view).decode())
 
 

@@ -47,7 +47,7 @@ function api(): StudioApi {
     ready: face.ready,
     async idle() {
       do await nextPicture();
-      while (session.connection.pending > 0 || panel.busy);
+      while (!session.settled || panel.busy);
       studio.draw();
     },
     seek(seconds) {

@@ -99,6 +99,8 @@ export class Session {
   /** Where changes of the set go. */
   target: "overrides" | "set" = "overrides";
   readonly connection: Connection;
+  /** What the server has, and up to where what is watched has come. */
+  #revision = { now: 0, shown: 0 };
   #watched: Watch = { type: "watch", pair: null, phone: "", line: "", stages: [], other: null };
   #asked = false;
   #listeners = new Map<Topic, (() => void)[]>();
@@ -141,6 +143,11 @@ export class Session {
       this.#asked = false;
       if (this.hello) this.connection.ask(this.#watched).catch(this.#complain);
     });
+  }
+
+  /** Whether nothing waits for an answer and all that is watched is as the server has it. */
+  get settled(): boolean {
+    return this.connection.pending === 0 && this.#revision.shown >= this.#revision.now;
   }
 
   ask<Kind extends Answer>(request: Request): Promise<Kind> {
@@ -195,6 +202,9 @@ export class Session {
         return this.#greet(answer);
       case "changed":
         return this.#change(answer);
+      case "watched":
+        this.#revision.shown = answer.revision;
+        return;
       case "bigram":
         this.pair = answer;
         return this.#announce("pair");
@@ -238,6 +248,7 @@ export class Session {
   #greet(hello: Hello): void {
     const first = this.hello === null;
     this.hello = hello;
+    this.#revision = { now: hello.revision, shown: -1 };
     this.cells = new Map(hello.cells.map((cell) => [nameOf(cell.pair), cell]));
     this.rules = hello.rules;
     this.poses = hello.poses;
@@ -254,6 +265,7 @@ export class Session {
   }
 
   #change(changed: Changed): void {
+    this.#revision.now = changed.revision;
     this.history = changed.history;
     this.#cells(changed.cells);
     if (changed.rules) this.rules = changed.rules;
